@@ -1,0 +1,184 @@
+#include "anchoring/association.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anchoring/cluster.h"
+#include "core/log_probability.h"
+#include "mht/ranked_associations.h"
+
+namespace anchord {
+namespace {
+
+constexpr int kMiss = -1;    // in place of a detection
+constexpr int kUnmade = -2;  // a child leaf that no hypothesis has asked for yet
+
+/// The clusters that detections tie together, as one: anchors in order, leaves numbered through.
+struct Tied {
+  std::vector<const PredictedLeaf*> leaves;
+  std::vector<int> first_leaf;  // per anchor
+  std::vector<std::shared_ptr<const Anchor>> anchors;
+  HypothesisSet hypotheses;
+};
+
+Tied tie(const std::vector<PredictedCluster>& clusters, const Limits& limits) {
+  Tied tied;
+  for (const PredictedCluster& c : clusters) {
+    for (std::size_t a = 0; a < c.leaves.size(); ++a) {
+      tied.first_leaf.push_back(static_cast<int>(tied.leaves.size()));
+      tied.anchors.push_back(c.cluster->anchors[a].anchor);
+      for (const PredictedLeaf& leaf : c.leaves[a]) tied.leaves.push_back(&leaf);
+    }
+    tied.hypotheses = tied.hypotheses.empty()
+                          ? c.cluster->hypotheses
+                          : join(tied.hypotheses, c.cluster->hypotheses, limits.max_hypotheses,
+                                 limits.min_weight);
+  }
+  if (tied.hypotheses.empty()) tied.hypotheses.push_back({0.0, {}});
+  return tied;
+}
+
+AssociationProblem problem_of(const Tied& tied, const std::vector<int>& detections) {
+  AssociationProblem problem;
+  problem.detections = static_cast<int>(detections.size());
+  for (const PredictedLeaf* leaf : tied.leaves)
+    for (int z : detections) problem.gain.push_back(leaf->gain[z]);
+  for (const Hypothesis& h : tied.hypotheses) {
+    AssociationProblem::Parent parent{h.log_weight, {}};
+    for (std::size_t a = 0; a < h.leaf.size(); ++a) {
+      if (h.leaf[a] == Hypothesis::kNoLeaf) continue;
+      const int leaf = tied.first_leaf[a] + h.leaf[a];
+      parent.leaves.push_back(leaf);
+      parent.log_weight += tied.leaves[leaf]->log_miss;
+    }
+    problem.parents.push_back(std::move(parent));
+  }
+  return problem;
+}
+
+/// The leaves after the frame, made when a hypothesis first needs them.
+class Children {
+ public:
+  Children(const Tied& tied, const std::vector<int>& detections, const MapFrame& frame,
+           std::uint64_t frame_number, const Visibility& visibility, const Background& background)
+      : tied_(tied),
+        detections_(detections),
+        frame_(frame),
+        frame_number_(frame_number),
+        visibility_(visibility),
+        background_(background),
+        number_(tied.leaves.size() * (detections.size() + 1), kUnmade) {}
+
+  /// The number, within its anchor's tree, of the leaf after it was given a detection (a position
+  /// in `detections`) or kMiss; kNoLeaf if it hardly exists any more.
+  int of(int leaf, int z, AnchorTree& tree) {
+    int& number = number_[leaf * (detections_.size() + 1) + z + 1];
+    if (number == kUnmade) {
+      Leaf child = made(*tied_.leaves[leaf], z);
+      if (child.existence < background_.knowledge.limits.min_existence || child.existence <= 0) {
+        number = Hypothesis::kNoLeaf;
+      } else {
+        number = static_cast<int>(tree.leaves.size());
+        tree.leaves.push_back(std::make_shared<const Leaf>(std::move(child)));
+      }
+    }
+    return number;
+  }
+
+ private:
+  Leaf made(const PredictedLeaf& parent, int z) const {
+    Leaf child = parent.leaf;
+    const auto depth = static_cast<std::uint64_t>(background_.knowledge.limits.scan_depth);
+    if (depth > 0) {
+      const auto old = [&](std::uint64_t r) { return (r >> 16) + depth <= frame_number_; };
+      child.recent.erase(std::remove_if(child.recent.begin(), child.recent.end(), old),
+                         child.recent.end());
+      if (z != kMiss) child.recent.push_back(frame_number_ << 16 | detections_[z]);
+    }
+    if (z == kMiss)
+      give_nothing(child, parent.shown, visibility_, frame_.sensor->detection_probability,
+                   background_);
+    else
+      give(child, frame_.detections[detections_[z]], *frame_.sensor, background_);
+    return child;
+  }
+
+  const Tied& tied_;
+  const std::vector<int>& detections_;
+  const MapFrame& frame_;
+  std::uint64_t frame_number_;
+  const Visibility& visibility_;
+  const Background& background_;
+  std::vector<int> number_;
+};
+
+/// What detection z starts: an anchor with one leaf, or nothing worth keeping.
+std::shared_ptr<const Leaf> birth(int z, const MapFrame& frame, const Origin& origin,
+                                  std::uint64_t frame_number, const Background& background) {
+  const Limits& limits = background.knowledge.limits;
+  if (origin.existence <= 0 || origin.existence < limits.min_existence) return nullptr;
+  Leaf leaf = first_leaf(frame.detections[z], origin.terms, origin.existence, frame.utime,
+                         background);
+  if (limits.scan_depth > 0) leaf.recent.push_back(frame_number << 16 | z);
+  return std::make_shared<const Leaf>(std::move(leaf));
+}
+
+}  // namespace
+
+bool PredictedCluster::touched() const {
+  return shown || stepped || std::find(gated.begin(), gated.end(), 1) != gated.end();
+}
+
+std::vector<std::shared_ptr<const Cluster>> associate(
+    const std::vector<PredictedCluster>& clusters, const std::vector<int>& detections,
+    const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
+    const Background& background, Belief& belief) {
+  const Limits& limits = background.knowledge.limits;
+  const Tied tied = tie(clusters, limits);
+  const AssociationProblem problem = problem_of(tied, detections);
+  const std::size_t old_anchors = tied.anchors.size();
+
+  Cluster joint;
+  for (const auto& anchor : tied.anchors) joint.anchors.push_back({anchor, {}});
+  std::vector<int> anchor_of(detections.size(), -1);  // that a detection starts
+  for (std::size_t z = 0; z < detections.size(); ++z) {
+    auto leaf = birth(detections[z], frame, origins[detections[z]], belief.frames, background);
+    if (!leaf) continue;
+    anchor_of[z] = static_cast<int>(joint.anchors.size());
+    auto anchor = std::make_shared<const Anchor>(Anchor{belief.births + detections[z] + 1, ""});
+    joint.anchors.push_back({std::move(anchor), {std::move(leaf)}});
+  }
+
+  Children children(tied, detections, frame, belief.frames, visibility, background);
+  RankedAssociations ranked(problem);
+  double total = kLogZero;
+  while (auto next = ranked.next()) {
+    // Below this a weight stays below min_weight whatever else is found.
+    if (next->log_weight < total + background.log_least_weight) break;
+    total = log_add(total, next->log_weight);
+    std::vector<int> given(problem.parents[next->parent].leaves.size(), kMiss);
+    Hypothesis h{next->log_weight, std::vector<int>(joint.anchors.size(), Hypothesis::kNoLeaf)};
+    for (std::size_t z = 0; z < detections.size(); ++z) {
+      if (next->leaf_of[z] != Association::kNone)
+        given[next->leaf_of[z]] = static_cast<int>(z);
+      else if (anchor_of[z] >= 0)
+        h.leaf[anchor_of[z]] = 0;
+    }
+    const Hypothesis& parent = tied.hypotheses[next->parent];
+    for (std::size_t a = 0, i = 0; a < old_anchors; ++a) {
+      if (parent.leaf[a] == Hypothesis::kNoLeaf) continue;
+      h.leaf[a] =
+          children.of(tied.first_leaf[a] + parent.leaf[a], given[i++], joint.anchors[a]);
+    }
+    joint.hypotheses.push_back(std::move(h));
+    if (limits.max_hypotheses > 0 &&
+        joint.hypotheses.size() >= static_cast<std::size_t>(limits.max_hypotheses))
+      break;
+  }
+  merge_equal(joint.hypotheses);
+  belief.dropped += prune(joint.hypotheses, 0, limits.min_weight);
+  if (limits.scan_depth > 0) merge_alike(joint, background);
+  return split(joint, background);
+}
+
+}  // namespace anchord

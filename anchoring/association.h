@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "anchoring/belief.h"
+#include "anchoring/map_frame.h"
+#include "anchoring/visibility.h"
+
+namespace anchord {
+
+/// A leaf as one frame finds it: predicted to the frame's time, with what the frame's view and
+/// detections mean for it.
+struct PredictedLeaf {
+  Leaf leaf;
+  LeafVisibility shown;
+  double log_miss = 0;                   ///< ln(1 - r q)
+  std::vector<double> gain;              ///< per detection of the frame: ln of giving it z, over
+                                         ///< giving it nothing and z being new or clutter
+};
+
+/// A cluster as one frame finds it.
+struct PredictedCluster {
+  std::shared_ptr<const Cluster> cluster;
+  std::vector<std::vector<PredictedLeaf>> leaves;  ///< per anchor and leaf
+  std::vector<char> gated;                         ///< per detection: some leaf may be given it
+  bool shown = false;                              ///< some leaf may be missed
+  bool stepped = false;                            ///< must be carried along in any case
+
+  bool touched() const;
+};
+
+/// What a detection is worth without any anchor.
+struct Origin {
+  std::vector<double> terms;  ///< per class p_D,c lambda_c(z) l(z|c)
+  double expected = 0;        ///< e(z), their sum
+  double log_weight = 0;      ///< ln(kappa(z) + e(z)), doubt included
+  double existence = 0;       ///< e / (kappa + e)
+};
+
+/// Folds one frame into a belief whose time is not after the frame's: prediction, association,
+/// births, undetected intensity, names. Deterministic.
+void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
+          const Background& background);
+
+/// The parts of fold(), in order.
+std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
+                            const Background& background);
+PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame& frame,
+                         const std::vector<Origin>& origins, const Visibility& visibility,
+                         const Background& background);
+/// Associates `detections` (indices into the frame) with clusters that they tie together: the
+/// clusters after the frame. Without clusters each detection starts one of its own. `births` are
+/// the numbers of the anchors that detections may start, per detection of the frame.
+std::vector<std::shared_ptr<const Cluster>> associate(
+    const std::vector<PredictedCluster>& clusters, const std::vector<int>& detections,
+    const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
+    const Background& background, Belief& belief);
+
+}  // namespace anchord

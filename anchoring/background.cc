@@ -1,0 +1,84 @@
+#include "anchoring/background.h"
+
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+
+#include "geometry/gaussian_mass.h"
+
+namespace anchord {
+namespace {
+
+Background::Dynamics dynamics_of(const ObjectClass& c) {
+  const int n = static_cast<int>(c.models.size());
+  Background::Dynamics d;
+  d.rates = ModelMatrix::Zero(n, n);
+  for (int to = 0; to < n; ++to)
+    if (!c.models[to].tracked())
+      for (int from = 0; from < n; ++from)
+        if (c.models[from].tracked()) d.rates(from, to) += c.models[to].rate;
+  for (const Transition& t : c.transitions) {
+    d.rates(t.from, t.to) += t.rate;
+    if (t.rate > 0 && c.models[t.from].tracked() && c.models[t.to].tracked()) d.exchanges = true;
+  }
+  d.moves = d.rates.maxCoeff() > 0;
+  while (!c.models[d.first_detectable].tracked() || !c.models[d.first_detectable].detectable)
+    ++d.first_detectable;
+  return d;
+}
+
+/// Volume of a cell's column, m^dims.
+double cell_volume(const Grid& grid, int dims) {
+  return grid.cell * grid.cell * (dims == 3 ? grid.z_max - grid.z_min : 1.0);
+}
+
+/// The arrivals that are concentrated somewhere, spread over the cells; empty if there are none.
+std::vector<double> concentrated(const ObjectClass& c, const Background& b) {
+  if (c.arrivals.empty()) return {};
+  std::vector<double> rate(b.grid.size(), c.arrival_rate);
+  const double volume = cell_volume(b.grid, b.dims);
+  for (const Arrival& a : c.arrivals) {
+    const auto* place = a.place >= 0 ? b.footprint(a.place).get() : nullptr;
+    for (int cell = 0; cell < b.grid.size(); ++cell) {
+      const Eigen::Vector3d low = b.grid.corner_min(cell), high = b.grid.corner_max(cell);
+      if (!place) {
+        rate[cell] += a.rate * mass({a.mean, a.covariance}, box(low, high), b.dims) / volume;
+        continue;
+      }
+      const int local = place->grid.index(0.5 * (low + high));
+      const int i = local < 0 ? -1 : place->position_of[local];
+      if (i >= 0) rate[cell] += a.rate * place->share[i] / volume;
+    }
+  }
+  return rate;
+}
+
+}  // namespace
+
+Background::Background(Knowledge k)
+    : knowledge(std::move(k)),
+      dims(knowledge.dims),
+      grid(Grid::over(knowledge.bounds_min, knowledge.bounds_max, knowledge.cell)),
+      tiling(std::make_shared<Tiling>(grid)) {
+  footprints_.push_back(
+      std::make_shared<Footprint>(Footprint::of(knowledge.world(), grid, dims)));
+  for (const Place& place : knowledge.places)
+    footprints_.push_back(
+        std::make_shared<Footprint>(Footprint::of(place.region, grid, dims)));
+  for (const auto& footprint : footprints_)
+    for (const auto& other : footprints_)
+      overlaps_[footprint.get()].push_back(footprint->overlap(other->region));
+  for (const ObjectClass& c : knowledge.classes) {
+    dynamics.push_back(dynamics_of(c));
+    arrivals.push_back(std::make_shared<ArrivalModel>(
+        ArrivalModel{c.undetected_intensity, c.departure_rate, c.arrival_rate,
+                     concentrated(c, *this)}));
+  }
+  const double gate = knowledge.limits.gate_probability;
+  gate_distance2 = gate < 1 ? boost::math::quantile(boost::math::chi_squared(dims), gate)
+                            : std::numeric_limits<double>::infinity();
+  log_least_weight = std::log(knowledge.limits.min_weight);
+}
+
+}  // namespace anchord

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "knowledge/knowledge.h"
+#include "models/somewhere.h"
+#include "models/transition.h"
+#include "models/undetected_intensity.h"
+
+namespace anchord {
+
+/// The knowledge, prepared for computing: what the engine derives from it once. Immutable.
+struct Background {
+  /// How the behaviour models of a class follow each other.
+  struct Dynamics {
+    ModelMatrix rates;         ///< 1/s between models
+    bool moves = false;        ///< any rate at all
+    bool exchanges = false;    ///< between tracked models: their densities are merged by moments,
+                               ///< so two steps are not one long one
+    int first_detectable = 0;  ///< the tracked model that a found object goes to
+  };
+
+  explicit Background(Knowledge knowledge);
+
+  const Knowledge knowledge;
+  int dims;
+  std::vector<Dynamics> dynamics;  ///< per class
+  Grid grid;                       ///< over the bounds
+  std::shared_ptr<const Tiling> tiling;
+  std::vector<std::shared_ptr<const ArrivalModel>> arrivals;  ///< per class
+  double gate_distance2;    ///< squared Mahalanobis distance; infinite without gate
+  double log_least_weight;  ///< ln of Limits::min_weight; minus infinity if 0
+
+  /// The footprint of a place; -1: of the world's bounds. Made for every place.
+  const std::shared_ptr<const Footprint>& footprint(int place) const {
+    return footprints_[place + 1];
+  }
+  /// Footprint::overlap() of one of these footprints with a place (-1: the bounds).
+  const std::vector<double>& overlap(const Footprint& footprint, int place) const {
+    return overlaps_.at(&footprint)[place + 1];
+  }
+  const ObjectClass& object_class(int c) const { return knowledge.classes[c]; }
+  int classes() const { return static_cast<int>(knowledge.classes.size()); }
+
+ private:
+  std::vector<std::shared_ptr<const Footprint>> footprints_;
+  std::map<const Footprint*, std::vector<std::vector<double>>> overlaps_;
+};
+
+}  // namespace anchord

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "anchoring/leaf.h"
+#include "mht/hypothesis_set.h"
+#include "models/undetected_intensity.h"
+
+namespace anchord {
+
+/// One object that is believed to exist, whichever hypothesis leads: its identity for life.
+struct Anchor {
+  std::uint64_t birth = 0;  ///< counts anchors in order of birth (frame, then detection)
+  std::string name;         ///< `cup-12`; empty until it has p >= 0.5 or stands in a best world
+
+  /// The name, or `new-N` before it has one.
+  std::string id() const { return name.empty() ? "new-" + std::to_string(birth) : name; }
+};
+
+/// An anchor with its leaves: one for each history of associations that is kept.
+struct AnchorTree {
+  std::shared_ptr<const Anchor> anchor;
+  std::vector<std::shared_ptr<const Leaf>> leaves;
+};
+
+/// Anchors whose associations do not interact with any other's, and the possible worlds among
+/// them. Immutable once made.
+struct Cluster {
+  std::vector<AnchorTree> anchors;
+  HypothesisSet hypotheses;  ///< normalised, best first; leaf numbers index AnchorTree::leaves
+
+  /// P(the anchor exists) = sum over hypotheses of P(h) r, at the time of its leaves.
+  double existence(int anchor) const;
+  /// The anchor's leaf in the most probable hypothesis, or null.
+  const Leaf* best_leaf(int anchor) const;
+};
+
+/// All that is believed after some frames. A value that shares what did not change: copying one
+/// costs a pointer for each cluster. Leaves are lazy: each holds for its own time.
+struct Belief {
+  Utime utime = 0;         ///< of the newest frame; 0 before the first
+  Utime start = 0;         ///< of the first frame
+  std::uint64_t frames = 0;
+  std::vector<std::shared_ptr<const Cluster>> clusters;
+  std::vector<UndetectedIntensity> undetected;  ///< per class
+  std::uint64_t births = 0;
+  std::vector<std::uint64_t> names;  ///< given so far, per class
+  double dropped = 0;      ///< probability of hypotheses dropped so far, summed over clusters
+
+  /// Seconds since the start, as the undetected intensities count them.
+  double seconds(Utime at) const { return seconds_between(start, at); }
+};
+
+}  // namespace anchord

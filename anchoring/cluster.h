@@ -1,0 +1,20 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "anchoring/belief.h"
+
+namespace anchord {
+
+/// Makes one of hypotheses that were given the same detections in the last scans and whose leaves
+/// are alike: they differ only in the distant past. Leaves are merged by moments, weighted.
+void merge_alike(Cluster& cluster, const Background& background);
+
+/// A cluster as the independent clusters it consists of (mht/factors.h), without leaves and
+/// anchors that no hypothesis uses. Anchors keep their order; clusters stand in order of their
+/// first anchor. Where hypotheses are bounded at all, a dependence of that order is let go.
+std::vector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
+                                                  const Background& background);
+
+}  // namespace anchord

@@ -1,0 +1,162 @@
+#include "anchoring/leaf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/log_probability.h"
+#include "geometry/gaussian_mass.h"
+
+namespace anchord {
+namespace {
+
+void move_density(ModelState& state, const BehaviourModel& model, double dt, int dims) {
+  auto* kinematic = std::get_if<Kinematic>(&state.density);
+  if (!kinematic) return;
+  if (model.kind == BehaviourModel::Kind::kConstantVelocity)
+    predict_constant_velocity(*kinematic, model.psd, dt, dims);
+  else
+    predict_constant_position(*kinematic, model.psd, dt, dims);
+}
+
+/// Kinematic moments as a model of another kind holds them.
+Kinematic as_model(Kinematic k, const BehaviourModel& model, int dims) {
+  if (model.kind == BehaviourModel::Kind::kConstantPosition) {
+    k.velocity.setZero();
+    k.pv.setZero();
+    k.vv.setZero();
+  } else if (k.vv.isZero(0)) {
+    for (int i = 0; i < dims; ++i) k.vv(i, i) = model.initial_velocity_variance;
+  }
+  return k;
+}
+
+/// The behaviour weights' Markov chain, and the densities that follow what flows.
+void flow(Leaf& leaf, double dt, const Background& background) {
+  const auto& dynamics = background.dynamics[leaf.model_class];
+  if (!dynamics.moves || dt == 0) return;
+  const auto& models = background.object_class(leaf.model_class).models;
+  const ModelMatrix p = transition_probabilities(dynamics.rates, dt);
+  const auto before = leaf.models;
+  const int n = static_cast<int>(before.size());
+  for (int to = 0; to < n; ++to) {
+    double weight = before[to].weight * p(to, to);
+    for (int from = 0; from < n; ++from) {
+      const double entering = from == to ? 0 : before[from].weight * p(from, to);
+      if (entering <= 0) continue;
+      if (!models[to].tracked()) {
+        std::get<Somewhere>(leaf.models[to].density).enter(weight, entering);
+      } else if (models[from].tracked()) {
+        auto& density = std::get<Kinematic>(leaf.models[to].density);
+        const Kinematic arriving =
+            as_model(std::get<Kinematic>(before[from].density), models[to], background.dims);
+        density = weight > 0 ? merge(weight, density, entering, arriving) : arriving;
+      }
+      weight += entering;
+    }
+    leaf.models[to].weight = weight;
+  }
+}
+
+double log_position_likelihood(const ModelState& state, const Gaussian& z, int dims) {
+  if (const auto* kinematic = std::get_if<Kinematic>(&state.density))
+    return fit(*kinematic, z, dims).log_likelihood;
+  return std::log(std::get<Somewhere>(state.density).likelihood(z));
+}
+
+double log_attribute_ratio(const Leaf& leaf, const AttributeEvidence& evidence,
+                           const Background& background) {
+  const AttributeBelief* belief = leaf.attribute(evidence.attribute);
+  if (!belief) return 0;
+  if (!belief->symbols.empty()) {
+    double sum = 0;
+    for (std::size_t s = 0; s < belief->symbols.size(); ++s)
+      sum += belief->symbols[s] * evidence.ratio[s];
+    return std::log(sum);
+  }
+  const double variance = belief->variance + evidence.variance, d = evidence.mean - belief->mean;
+  const auto& attribute = background.knowledge.attributes[evidence.attribute];
+  return -0.5 * (d * d / variance + std::log(2 * std::numbers::pi * variance)) -
+         std::log(attribute.reference_density);
+}
+
+}  // namespace
+
+int Leaf::top_class() const {
+  return static_cast<int>(std::max_element(classes.begin(), classes.end()) - classes.begin());
+}
+
+int Leaf::top_model() const {
+  int top = -1;
+  for (int m = 0; m < static_cast<int>(models.size()); ++m)
+    if (std::holds_alternative<Kinematic>(models[m].density) &&
+        (top < 0 || models[m].weight > models[top].weight))
+      top = m;
+  return top;
+}
+
+const AttributeBelief* Leaf::attribute(int index) const {
+  for (const auto& a : attributes)
+    if (a.attribute == index) return &a;
+  return nullptr;
+}
+
+void predict(Leaf& leaf, Utime utime, const Background& background) {
+  const double dt = seconds_between(leaf.utime, utime);
+  leaf.utime = utime;
+  if (dt == 0) return;
+  double stays = 0;
+  bool leaves = false;
+  for (int c = 0; c < background.classes(); ++c) {
+    const double mu = background.object_class(c).departure_rate;
+    if (mu > 0) leaf.classes[c] *= std::exp(-mu * dt), leaves = true;
+    stays += leaf.classes[c];
+  }
+  if (leaves) {
+    leaf.existence *= stays;
+    for (double& b : leaf.classes) b /= stays;
+  }
+  const auto& models = background.object_class(leaf.model_class).models;
+  for (std::size_t m = 0; m < leaf.models.size(); ++m)
+    move_density(leaf.models[m], models[m], dt, background.dims);
+  flow(leaf, dt, background);
+  if (leaves) follow_class(leaf, background);
+}
+
+double log_likelihood(const Leaf& leaf, const MapDetection& z,
+                      const std::vector<double>& detection_probability,
+                      const Background& background) {
+  double by_class = 0;
+  for (std::size_t c = 0; c < leaf.classes.size(); ++c)
+    by_class += leaf.classes[c] * detection_probability[c] * z.class_ratio[c];
+  const auto& models = background.object_class(leaf.model_class).models;
+  double log_position = kLogZero;
+  for (std::size_t m = 0; m < leaf.models.size(); ++m)
+    if (models[m].detectable && leaf.models[m].weight > 0)
+      log_position = log_add(log_position,
+                             std::log(leaf.models[m].weight) +
+                                 log_position_likelihood(leaf.models[m], z.position,
+                                                         background.dims));
+  double log_g = std::log(by_class) + log_position;
+  for (const auto& evidence : z.attributes) log_g += log_attribute_ratio(leaf, evidence, background);
+  return log_g;
+}
+
+bool in_gate(const Leaf& leaf, const MapDetection& z, const Background& background) {
+  const double gate = background.knowledge.limits.gate_probability;
+  if (gate >= 1) return true;
+  const auto& models = background.object_class(leaf.model_class).models;
+  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
+    if (!models[m].detectable || leaf.models[m].weight <= 1 - gate) continue;
+    if (const auto* kinematic = std::get_if<Kinematic>(&leaf.models[m].density)) {
+      if (fit(*kinematic, z.position, background.dims).distance2 <= background.gate_distance2)
+        return true;
+    } else if (mass(z.position, std::get<Somewhere>(leaf.models[m].density).footprint()->region,
+                    background.dims) > 1 - gate) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace anchord

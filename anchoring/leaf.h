@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <boost/container/small_vector.hpp>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "anchoring/background.h"
+#include "anchoring/map_frame.h"
+#include "models/kinematic.h"
+
+namespace anchord {
+
+class Visibility;
+
+/// What a leaf believes about one attribute other than the class.
+struct AttributeBelief {
+  int attribute = 0;            ///< index into Knowledge::attributes
+  std::vector<double> symbols;  ///< categorical: b_A(s), sums to 1
+  double mean = 0, variance = 0;  ///< scalar
+};
+
+/// One behaviour model of a leaf: its weight and density.
+struct ModelState {
+  double weight = 0;
+  std::variant<Kinematic, Somewhere> density;
+};
+
+/// One version of an anchor, given one history of associations. A value; all of it holds for
+/// `utime`. Class, models and position are kept as a product of marginals.
+struct Leaf {
+  double existence = 0;                             ///< r
+  boost::container::small_vector<double, 4> classes;  ///< b(c), sums to 1
+  int model_class = 0;                              ///< the class whose models these are
+  boost::container::small_vector<ModelState, 2> models;  ///< in the order of that class
+  std::vector<AttributeBelief> attributes;          ///< those reported, ascending
+  std::optional<double> yaw;                        ///< last reported, map frame
+  Utime utime = 0;
+  Utime last_seen = 0;
+  /// Which detections it was given in the last scans, as frame number << 16 | detection, ascending.
+  boost::container::small_vector<std::uint64_t, 4> recent;
+
+  /// The most probable class; ties go to the first.
+  int top_class() const;
+  /// Index of the most probable tracked model.
+  int top_model() const;
+  const AttributeBelief* attribute(int index) const;
+};
+
+/// What a frame's view means for a leaf, as predicted to it.
+struct LeafVisibility {
+  double v = 0;                                       ///< sum of w_m v_m
+  double p = 0;                                       ///< sum of b(c) p_D,c
+  boost::container::small_vector<double, 2> v_model;  ///< v_m; 0 for an undetectable model
+  double q() const { return v * p; }                  ///< probability of being detected
+};
+
+/// Carries a leaf to `utime`: departure, behaviour weights, densities.
+void predict(Leaf& leaf, Utime utime, const Background& background);
+
+/// ln g(z | leaf) of a predicted leaf, not yet counting r; kLogZero where it cannot be.
+/// `detection_probability` is per class.
+double log_likelihood(const Leaf& leaf, const MapDetection& z,
+                      const std::vector<double>& detection_probability,
+                      const Background& background);
+
+/// Whether z lies within the gate of any behaviour model that carries more weight than the gate
+/// leaves out.
+bool in_gate(const Leaf& leaf, const MapDetection& z, const Background& background);
+
+/// A predicted leaf that is given z.
+void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Background& background);
+
+/// A predicted leaf that is given nothing, where `shown` is what the frame's view shows of it.
+void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& visibility,
+                  const std::vector<double>& detection_probability, const Background& background);
+
+/// The leaf of a new anchor; `terms` are p_D,c lambda_c(z) l(z|c) per class, `existence` their sum
+/// over that and clutter.
+Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double existence,
+                Utime utime, const Background& background);
+
+/// The mixture of two versions of an anchor at the same time, by moments; weights > 0, any sum.
+Leaf merge(double weight_a, const Leaf& a, double weight_b, const Leaf& b,
+           const Background& background);
+
+/// Whether two versions are so alike that merging them loses nothing one would notice: every
+/// model's mean within `distance` standard deviations of the other's.
+bool alike(const Leaf& a, const Leaf& b, double distance, const Background& background);
+
+/// Moves the densities to the models of the most probable class, if that has changed.
+void follow_class(Leaf& leaf, const Background& background);
+
+}  // namespace anchord

@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cmath>
+
+#include "anchoring/leaf.h"
+
+namespace anchord {
+namespace {
+
+Kinematic moments(const ModelState& state, const BehaviourModel& target, int dims) {
+  Kinematic k;
+  if (const auto* somewhere = std::get_if<Somewhere>(&state.density)) {
+    const Gaussian g = somewhere->moments();
+    k = kinematic_at(g, 0, dims);
+  } else {
+    k = std::get<Kinematic>(state.density);
+  }
+  if (target.kind == BehaviourModel::Kind::kConstantPosition) {
+    k.velocity.setZero();
+    k.pv.setZero();
+    k.vv.setZero();
+  } else if (k.vv.isZero(0)) {
+    for (int i = 0; i < dims; ++i) k.vv(i, i) = target.initial_velocity_variance;
+  }
+  return k;
+}
+
+/// The model of the new class that takes the density of an old one: same kind and place, not
+/// taken yet; else the first of its sort; else (a `somewhere` where there is none) the first
+/// tracked one.
+int heir(const BehaviourModel& old, const std::vector<BehaviourModel>& models,
+         std::vector<char>& taken) {
+  for (std::size_t m = 0; m < models.size(); ++m)
+    if (!taken[m] && models[m].kind == old.kind && models[m].place == old.place) {
+      taken[m] = 1;
+      return static_cast<int>(m);
+    }
+  for (std::size_t m = 0; m < models.size(); ++m)
+    if (models[m].tracked() == old.tracked()) return static_cast<int>(m);
+  for (std::size_t m = 0; m < models.size(); ++m)
+    if (models[m].tracked()) return static_cast<int>(m);
+  return 0;
+}
+
+/// Adds weight and density to a model that has `to.weight` of its own.
+void take_over(ModelState& to, const ModelState& from, const BehaviourModel& model,
+               bool same_place, int dims) {
+  if (model.tracked()) {
+    const Kinematic arriving = moments(from, model, dims);
+    auto& density = std::get<Kinematic>(to.density);
+    if (to.weight > 0 && from.weight > 0)
+      density = merge(to.weight, density, from.weight, arriving);
+    else if (to.weight <= 0)
+      density = arriving;
+  } else if (from.weight > 0) {
+    auto& density = std::get<Somewhere>(to.density);
+    if (!same_place)
+      density.enter(to.weight, from.weight);  // uniform over the other place
+    else if (to.weight > 0)
+      density = Somewhere::merge(to.weight, density, from.weight,
+                                 std::get<Somewhere>(from.density));
+    else
+      density = std::get<Somewhere>(from.density);
+  }
+  to.weight += from.weight;
+}
+
+}  // namespace
+
+void follow_class(Leaf& leaf, const Background& background) {
+  const int top = leaf.top_class();
+  if (top == leaf.model_class) return;
+  const auto& old_models = background.object_class(leaf.model_class).models;
+  const auto& models = background.object_class(top).models;
+  const auto old = leaf.models;
+  const int old_top = leaf.top_model();
+  leaf.models.clear();
+  for (const auto& model : models) {
+    if (model.tracked())
+      leaf.models.push_back({0, moments(old[old_top], model, background.dims)});
+    else
+      leaf.models.push_back({0, Somewhere(background.footprint(model.place))});
+  }
+  std::vector<char> taken(models.size(), 0);
+  for (std::size_t m = 0; m < old.size(); ++m) {
+    const int to = heir(old_models[m], models, taken);
+    const bool same_place = !old_models[m].tracked() && !models[to].tracked() &&
+                            old_models[m].place == models[to].place;
+    if (old[m].weight > 0 || taken[to])
+      take_over(leaf.models[to], old[m], models[to], same_place, background.dims);
+  }
+  leaf.model_class = top;
+}
+
+Leaf merge(double weight_a, const Leaf& a, double weight_b, const Leaf& b,
+           const Background& background) {
+  Leaf out = weight_a >= weight_b ? a : b;
+  const double u = weight_a / (weight_a + weight_b), v = 1 - u;
+  out.existence = u * a.existence + v * b.existence;
+  const double ra = weight_a * a.existence, rb = weight_b * b.existence;
+  if (ra + rb <= 0) return out;
+  const double wa = ra / (ra + rb), wb = 1 - wa;
+  for (std::size_t c = 0; c < out.classes.size(); ++c)
+    out.classes[c] = wa * a.classes[c] + wb * b.classes[c];
+  for (std::size_t m = 0; m < out.models.size(); ++m) {
+    const double ma = wa * a.models[m].weight, mb = wb * b.models[m].weight;
+    out.models[m].weight = ma + mb;
+    if (ma <= 0 || mb <= 0) {
+      out.models[m].density = ma > 0 ? a.models[m].density : b.models[m].density;
+    } else if (std::holds_alternative<Kinematic>(a.models[m].density)) {
+      out.models[m].density = merge(ma, std::get<Kinematic>(a.models[m].density), mb,
+                                    std::get<Kinematic>(b.models[m].density));
+    } else {
+      out.models[m].density = Somewhere::merge(ma, std::get<Somewhere>(a.models[m].density), mb,
+                                               std::get<Somewhere>(b.models[m].density));
+    }
+  }
+  for (auto& belief : out.attributes) {
+    const auto *in_a = a.attribute(belief.attribute), *in_b = b.attribute(belief.attribute);
+    if (!in_a || !in_b) continue;
+    for (std::size_t s = 0; s < belief.symbols.size(); ++s)
+      belief.symbols[s] = wa * in_a->symbols[s] + wb * in_b->symbols[s];
+    const double d = in_b->mean - in_a->mean;
+    belief.mean = in_a->mean + wb * d;
+    belief.variance = wa * in_a->variance + wb * in_b->variance + wa * wb * d * d;
+  }
+  out.last_seen = std::max(a.last_seen, b.last_seen);
+  follow_class(out, background);
+  return out;
+}
+
+bool alike(const Leaf& a, const Leaf& b, double distance, const Background& background) {
+  if (a.model_class != b.model_class || a.utime != b.utime ||
+      a.attributes.size() != b.attributes.size())
+    return false;
+  for (std::size_t m = 0; m < a.models.size(); ++m) {
+    const auto *ka = std::get_if<Kinematic>(&a.models[m].density),
+               *kb = std::get_if<Kinematic>(&b.models[m].density);
+    if (!ka || a.models[m].weight <= 0 || b.models[m].weight <= 0) continue;
+    if (fit(*ka, kb->position_density(), background.dims).distance2 > distance * distance)
+      return false;
+  }
+  return true;
+}
+
+}  // namespace anchord

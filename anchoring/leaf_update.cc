@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+
+#include "anchoring/leaf.h"
+#include "anchoring/visibility.h"
+#include "core/log_probability.h"
+
+namespace anchord {
+namespace {
+
+template <typename Container>
+void scale_to_one(Container& values) {
+  double sum = 0;
+  for (double v : values) sum += v;
+  if (sum > 0)
+    for (double& v : values) v /= sum;
+}
+
+AttributeBelief first_belief(const AttributeEvidence& evidence) {
+  AttributeBelief belief{evidence.attribute, evidence.ratio, evidence.mean, evidence.variance};
+  scale_to_one(belief.symbols);
+  return belief;
+}
+
+void learn(AttributeBelief& belief, const AttributeEvidence& evidence) {
+  if (!belief.symbols.empty()) {
+    for (std::size_t s = 0; s < belief.symbols.size(); ++s)
+      belief.symbols[s] *= evidence.ratio[s];
+    scale_to_one(belief.symbols);
+    return;
+  }
+  const double gain = belief.variance / (belief.variance + evidence.variance);
+  belief.mean += gain * (evidence.mean - belief.mean);
+  belief.variance *= 1 - gain;
+}
+
+void learn_attributes(Leaf& leaf, const MapDetection& z) {
+  for (const auto& evidence : z.attributes) {
+    auto at = std::lower_bound(
+        leaf.attributes.begin(), leaf.attributes.end(), evidence.attribute,
+        [](const AttributeBelief& b, int attribute) { return b.attribute < attribute; });
+    if (at != leaf.attributes.end() && at->attribute == evidence.attribute)
+      learn(*at, evidence);
+    else
+      leaf.attributes.insert(at, first_belief(evidence));
+  }
+}
+
+/// Bayes over the behaviour models; what was somewhere has been found at z and joins the first
+/// tracked model.
+void update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
+                   const Background& background) {
+  const int dims = background.dims;
+  const auto& models = background.object_class(leaf.model_class).models;
+  const int target = background.dynamics[leaf.model_class].first_detectable;
+  boost::container::small_vector<double, 4> log_weight(leaf.models.size(), kLogZero);
+  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
+    ModelState& state = leaf.models[m];
+    if (!models[m].detectable || state.weight <= 0) continue;
+    if (auto* kinematic = std::get_if<Kinematic>(&state.density)) {
+      log_weight[m] = std::log(state.weight) + fit(*kinematic, z.position, dims).log_likelihood;
+      update(*kinematic, z.position, dims);
+      keep_above(*kinematic, sensor.pose_floor, dims);
+    } else {
+      log_weight[m] = std::log(state.weight) +
+                      std::log(std::get<Somewhere>(state.density).likelihood(z.position));
+    }
+  }
+  const double total = log_sum(log_weight, [](double x) { return x; });
+  double found = 0;
+  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
+    double weight = std::exp(log_weight[m] - total);
+    if (!models[m].tracked()) {
+      found += weight;
+      weight = 0;
+      leaf.models[m].density = Somewhere(background.footprint(models[m].place));
+    }
+    leaf.models[m].weight = weight;
+  }
+  if (found <= 0) return;
+  ModelState& home = leaf.models[target];
+  const bool moving = models[target].kind == BehaviourModel::Kind::kConstantVelocity;
+  Kinematic at_z = kinematic_at(
+      z.position, moving ? models[target].initial_velocity_variance : 0.0, dims);
+  keep_above(at_z, sensor.pose_floor, dims);
+  auto& density = std::get<Kinematic>(home.density);
+  density = home.weight > 0 ? merge(home.weight, density, found, at_z) : at_z;
+  home.weight += found;
+}
+
+}  // namespace
+
+void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Background& background) {
+  leaf.existence = 1;
+  leaf.last_seen = leaf.utime;
+  update_models(leaf, z, sensor, background);
+  for (std::size_t c = 0; c < leaf.classes.size(); ++c)
+    leaf.classes[c] *= sensor.detection_probability[c] * z.class_ratio[c];
+  scale_to_one(leaf.classes);
+  learn_attributes(leaf, z);
+  if (z.yaw) leaf.yaw = z.yaw;
+  follow_class(leaf, background);
+}
+
+void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& visibility,
+                  const std::vector<double>& detection_probability, const Background& background) {
+  const double q = shown.q(), p = shown.p, v = shown.v;
+  if (q <= 0) return;
+  leaf.existence *= (1 - q) / (1 - leaf.existence * q);
+  for (std::size_t c = 0; c < leaf.classes.size(); ++c)
+    leaf.classes[c] *= (1 - detection_probability[c] * v) / (1 - q);
+  scale_to_one(leaf.classes);  // to rounding: they sum to 1 already
+  double sum = 0;
+  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
+    ModelState& state = leaf.models[m];
+    state.weight *= (1 - p * shown.v_model[m]) / (1 - p * v);
+    sum += state.weight;
+    if (auto* somewhere = std::get_if<Somewhere>(&state.density);
+        somewhere && shown.v_model[m] > 0)
+      somewhere->miss(p, visibility.of(*somewhere->footprint()));
+  }
+  for (auto& state : leaf.models) state.weight /= sum;
+  follow_class(leaf, background);
+}
+
+Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double existence,
+                Utime utime, const Background& background) {
+  Leaf leaf;
+  leaf.existence = existence;
+  leaf.classes.assign(terms.begin(), terms.end());
+  scale_to_one(leaf.classes);
+  leaf.model_class = leaf.top_class();
+  for (const BehaviourModel& model : background.object_class(leaf.model_class).models) {
+    if (!model.tracked()) {
+      leaf.models.push_back({model.initial_weight, Somewhere(background.footprint(model.place))});
+      continue;
+    }
+    const bool moving = model.kind == BehaviourModel::Kind::kConstantVelocity;
+    leaf.models.push_back({model.initial_weight,
+                           kinematic_at(z.position, moving ? model.initial_velocity_variance : 0.0,
+                                        background.dims)});
+  }
+  learn_attributes(leaf, z);
+  leaf.yaw = z.yaw;
+  leaf.utime = leaf.last_seen = utime;
+  return leaf;
+}
+
+}  // namespace anchord

@@ -1,0 +1,178 @@
+#include "anchoring/map_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/conversion.h"
+
+namespace anchord {
+namespace {
+
+constexpr double kLeastSymbol = 1e-6;  // no report is certain
+constexpr double kLeastScore = 1e-6;
+
+/// A report as a distribution over all symbols: what is left over is spread over those not named.
+Result<std::vector<double>> distribution(const SymbolReport& report, const Attribute& attribute,
+                                         const std::string& field) {
+  std::vector<double> m(attribute.symbols.size(), -1.0);
+  double sum = 0;
+  for (const auto& [symbol, p] : report.probabilities) {
+    const int s = attribute.find(symbol);
+    const std::string at = field + "." + symbol;
+    if (s < 0) return invalid(at, "is not a symbol of attribute \"" + attribute.name + "\"");
+    if (!(p >= 0 && p <= 1.001)) return invalid(at, "must be a probability, 0 to 1");
+    if (m[s] >= 0) return invalid(at, "is reported twice");
+    m[s] = p;
+    sum += p;
+  }
+  if (!(sum > 0)) return invalid(field, "its probabilities must not all be zero");
+  if (sum > 1.001) return invalid(field, "its probabilities must sum to at most 1");
+  const auto unnamed = std::count(m.begin(), m.end(), -1.0);
+  double total = 0;
+  for (double& p : m) {
+    if (p < 0) p = std::max(0.0, 1 - sum) / static_cast<double>(unnamed);
+    p = std::max(p, kLeastSymbol);
+    total += p;
+  }
+  for (double& p : m) p /= total;
+  return m;
+}
+
+/// m(s) / pi(s), or with a confusion matrix what the report is worth under each true symbol.
+std::vector<double> likelihood_ratio(const std::vector<double>& m, const Sensor& sensor,
+                                     int attribute) {
+  const std::size_t n = m.size();
+  std::vector<double> ratio(n);
+  if (!sensor.confusion.empty() && !sensor.confusion[attribute].empty()) {
+    double sum = 0;
+    for (std::size_t s = 0; s < n; ++s) {
+      ratio[s] = 0;
+      for (std::size_t j = 0; j < n; ++j) ratio[s] += m[j] * sensor.confusion[attribute][s][j];
+      sum += ratio[s];
+    }
+    for (double& r : ratio) r /= sum / static_cast<double>(n);
+    return ratio;
+  }
+  const bool uniform = sensor.prior.empty() || sensor.prior[attribute].empty();
+  for (std::size_t s = 0; s < n; ++s)
+    ratio[s] = m[s] / (uniform ? 1.0 / static_cast<double>(n) : sensor.prior[attribute][s]);
+  return ratio;
+}
+
+Status read_attributes(const Detection& from, const std::string& at, const Knowledge& knowledge,
+                       const Sensor& sensor, MapDetection& to) {
+  std::vector<char> seen(knowledge.attributes.size(), 0);
+  for (const AttributeReport& report : from.attributes) {
+    const std::string field = at + ".attributes." + report.name;
+    const int a = knowledge.find_attribute(report.name);
+    if (a < 0) return invalid(field, "is not an attribute of the configuration");
+    if (seen[a]++) return invalid(field, "is reported twice");
+    const Attribute& attribute = knowledge.attributes[a];
+    if (const auto* scalar = std::get_if<ScalarReport>(&report.value)) {
+      if (attribute.kind != Attribute::Kind::kScalar)
+        return invalid(field, "is categorical: give probabilities of its symbols");
+      if (!std::isfinite(scalar->mean)) return invalid(field + ".mean", "must be finite");
+      if (!(scalar->variance > 0) || !std::isfinite(scalar->variance))
+        return invalid(field + ".variance", "must be positive and finite");
+      to.attributes.push_back({a, {}, scalar->mean, scalar->variance});
+      continue;
+    }
+    if (attribute.kind != Attribute::Kind::kCategorical)
+      return invalid(field, "is a scalar: give its mean and variance");
+    auto m = distribution(std::get<SymbolReport>(report.value), attribute, field);
+    if (!m) return m.error();
+    auto ratio = likelihood_ratio(*m, sensor, a);
+    if (a == knowledge.class_attribute) {
+      to.has_class = true;
+      to.class_ratio = std::move(ratio);
+    } else {
+      to.attributes.push_back({a, std::move(ratio), 0, 0});
+    }
+  }
+  return Done{};
+}
+
+Result<Gaussian> read_position(const Detection& from, const std::optional<Pose>& pose,
+                               const Sensor& sensor, int dims) {
+  if (const auto* polar = std::get_if<PolarMeasurement>(&from.measurement)) {
+    if (!polar->variance.empty()) return to_map(*polar, pose, dims);
+    if (sensor.polar_noise.empty())
+      return invalid("polar.variance", "is missing, and sensor \"" + sensor.name +
+                                           "\" has no polar noise configured");
+    PolarMeasurement filled = *polar;
+    filled.variance = sensor.polar_noise;
+    return to_map(filled, pose, dims);
+  }
+  CartesianMeasurement filled = std::get<CartesianMeasurement>(from.measurement);
+  // A 2-D world takes 3-D reports from encodings that always carry three numbers.
+  if (dims == 2 && filled.position.size() == 3 && filled.covariance.size() != 9)
+    filled.position.pop_back();
+  if (filled.covariance.empty()) {
+    if (sensor.noise.empty())
+      return invalid("covariance", "is missing, and sensor \"" + sensor.name +
+                                       "\" has no noise configured");
+    filled.covariance = sensor.noise;
+  }
+  return to_map(filled, pose, dims);
+}
+
+Result<MapDetection> place_detection(const Detection& from, const Frame& frame,
+                                     const std::string& at, const Background& background,
+                                     const Sensor& sensor) {
+  MapDetection to;
+  auto position = read_position(from, frame.pose, sensor, background.dims);
+  if (!position)
+    return invalid(at + "." + position.error().field, position.error().message);
+  to.position = *position;
+  to.class_ratio.assign(background.classes(), 1.0);
+  if (auto read = read_attributes(from, at, background.knowledge, sensor, to); !read)
+    return read.error();
+  to.log_clutter = std::log(sensor.clutter_density);
+  if (from.score) {
+    if (!(*from.score >= 0 && *from.score <= 1))
+      return invalid(at + ".score", "must be a probability, 0 to 1");
+    const double p = std::clamp(*from.score, kLeastScore, 1 - kLeastScore);
+    to.log_clutter += std::log1p(-p) - std::log(p);
+  }
+  if (from.yaw) {
+    if (!std::isfinite(*from.yaw)) return invalid(at + ".yaw", "must be finite");
+    to.yaw = yaw_in_map(*from.yaw, frame.pose);
+  }
+  to.object = from.object;
+  return to;
+}
+
+}  // namespace
+
+Result<MapFrame> place_in_map(const Frame& frame, const Background& background) {
+  if (frame.utime < kEarliestUtime || frame.utime > kLatestUtime)
+    return invalid("utime", "must lie in the years 2000 to 2100, in microseconds since 1970");
+  if (frame.sensor.empty()) return invalid("sensor", "must name the sensor");
+  if (frame.detections.size() > kMaxDetections)
+    return Error{ErrorCode::kTooLarge, "detections",
+                 "has " + std::to_string(frame.detections.size()) + " entries, more than " +
+                     std::to_string(kMaxDetections)};
+  if (frame.pose)
+    if (auto good = check_pose(*frame.pose); !good) return good.error();
+
+  MapFrame out;
+  out.utime = frame.utime;
+  out.robot = frame.robot;
+  out.sensor_name = frame.sensor;
+  out.sensor = &background.knowledge.sensor(frame.sensor);
+  const View view = frame.view ? *frame.view : out.sensor->view.value_or(View{});
+  auto placed = MapView::place(view, frame.pose, background.dims);
+  if (!placed) return placed.error();
+  out.view = *placed;
+  out.detections.reserve(frame.detections.size());
+  for (std::size_t i = 0; i < frame.detections.size(); ++i) {
+    auto detection = place_detection(frame.detections[i], frame,
+                                     "detections[" + std::to_string(i) + "]", background,
+                                     *out.sensor);
+    if (!detection) return detection.error();
+    out.detections.push_back(std::move(*detection));
+  }
+  return out;
+}
+
+}  // namespace anchord

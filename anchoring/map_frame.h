@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "anchoring/background.h"
+#include "core/frame.h"
+#include "core/result.h"
+#include "geometry/gaussian.h"
+#include "geometry/view.h"
+
+namespace anchord {
+
+/// What a detection says about one attribute other than its class.
+struct AttributeEvidence {
+  int attribute = 0;          ///< index into Knowledge::attributes
+  std::vector<double> ratio;  ///< categorical: per symbol m(s) / pi(s), likelihood over prior
+  double mean = 0, variance = 0;  ///< scalar
+};
+
+/// A detection, placed in the map and resolved against the knowledge.
+struct MapDetection {
+  Gaussian position;
+  bool has_class = false;
+  std::vector<double> class_ratio;  ///< l(z|c) per class; 1 if no class was reported
+  std::vector<AttributeEvidence> attributes;
+  double log_clutter = 0;           ///< ln kappa(z)
+  std::optional<double> yaw;        ///< map frame
+  std::string object;               ///< the anchor that it names, or empty
+};
+
+/// A frame, checked and placed in the map: what the engine folds.
+struct MapFrame {
+  Utime utime = 0;
+  std::string robot, sensor_name;
+  const Sensor* sensor = nullptr;  ///< in the Background
+  MapView view;
+  std::vector<MapDetection> detections;
+};
+
+/// Checks everything about a frame that does not depend on the frames before it, and places it in
+/// the map. Refuses what cannot be believed: numbers that are not finite, covariances that are not
+/// symmetric positive definite, probabilities outside 0..1 or that sum to nothing or to more than
+/// 1.001, unknown attributes and symbols, stamps outside 2000 to 2100, too many detections. The
+/// error's field is a path in the frame: `detections[3].attributes.color.blau`.
+Result<MapFrame> place_in_map(const Frame& frame, const Background& background);
+
+}  // namespace anchord

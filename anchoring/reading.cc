@@ -1,0 +1,223 @@
+#include "anchoring/reading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/gaussian_mass.h"
+#include "geometry/standard_normal.h"
+
+namespace anchord {
+namespace {
+
+double predicate_probability(const AttributeBelief& belief, const Predicate& predicate) {
+  const double sigma = std::sqrt(belief.variance);
+  return normal_between((predicate.min - belief.mean) / sigma,
+                        (predicate.max - belief.mean) / sigma);
+}
+
+Leaf predicted(const Leaf& leaf, Utime at, const Background& background) {
+  Leaf out = leaf;
+  if (at > leaf.utime) predict(out, at, background);
+  return out;
+}
+
+}  // namespace
+
+double match(const Leaf& leaf, const Description& description, const Background& background) {
+  double p = 1;
+  for (const auto& term : description.terms) {
+    const Attribute& attribute = background.knowledge.attributes[term.attribute];
+    if (term.attribute == background.knowledge.class_attribute) {
+      p *= leaf.classes[term.symbol];
+      continue;
+    }
+    const AttributeBelief* belief = leaf.attribute(term.attribute);
+    if (attribute.kind == Attribute::Kind::kCategorical)
+      p *= belief ? belief->symbols[term.symbol]
+                  : 1.0 / static_cast<double>(attribute.symbols.size());
+    else
+      p *= belief ? predicate_probability(*belief, attribute.predicates[term.symbol]) : 0.0;
+  }
+  return p;
+}
+
+double match(const ObjectBelief& object, const Description& description,
+             const Background& background) {
+  double p = 0;
+  for (const auto& version : object.versions)
+    p += version.weight(object.p) * match(version.leaf, description, background);
+  return p;
+}
+
+const Kinematic& position_of(const Leaf& leaf) {
+  return std::get<Kinematic>(leaf.models[leaf.top_model()].density);
+}
+
+Gaussian moments(const Leaf& leaf) {
+  Gaussian sum;
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  // About the best position: positions may be far from the origin.
+  const Eigen::Vector3d about = position_of(leaf).position;
+  for (const ModelState& model : leaf.models) {
+    if (model.weight <= 0) continue;
+    const auto* kinematic = std::get_if<Kinematic>(&model.density);
+    const Gaussian g = kinematic ? kinematic->position_density()
+                                 : std::get<Somewhere>(model.density).moments();
+    const Eigen::Vector3d d = g.mean - about;
+    sum.mean += model.weight * d;
+    second += model.weight * (g.covariance + d * d.transpose());
+  }
+  sum.covariance = second - sum.mean * sum.mean.transpose();
+  sum.mean += about;
+  return sum;
+}
+
+double mass_in_place(const Leaf& leaf, int place, const Background& background) {
+  const Footprint& asked = *background.footprint(place);
+  double sum = 0;
+  for (const ModelState& model : leaf.models) {
+    if (model.weight <= 0) continue;
+    if (const auto* kinematic = std::get_if<Kinematic>(&model.density)) {
+      sum += model.weight * mass(kinematic->position_density(), asked.region, background.dims);
+      continue;
+    }
+    const auto& somewhere = std::get<Somewhere>(model.density);
+    sum += model.weight * somewhere.mass(background.overlap(*somewhere.footprint(), place));
+  }
+  return std::min(sum, 1.0);
+}
+
+Gaussian ObjectBelief::moments(const Background&) const {
+  Gaussian sum;
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  const Eigen::Vector3d about = position_of(versions.front().leaf).position;
+  for (const Version& version : versions) {
+    const Gaussian g = ::anchord::moments(version.leaf);
+    const Eigen::Vector3d d = g.mean - about;
+    sum.mean += version.weight(p) * d;
+    second += version.weight(p) * (g.covariance + d * d.transpose());
+  }
+  sum.covariance = second - sum.mean * sum.mean.transpose();
+  sum.mean += about;
+  return sum;
+}
+
+double ObjectBelief::in_place(int place, const Background& background) const {
+  double sum = 0;
+  for (const Version& version : versions)
+    sum += version.weight(p) * mass_in_place(version.leaf, place, background);
+  return std::min(sum, 1.0);
+}
+
+int ObjectBelief::place(const Background& background) const {
+  const auto& places = background.knowledge.places;
+  int deepest = -1;
+  for (int i = 0; i < static_cast<int>(places.size()); ++i)
+    if ((deepest < 0 || places[i].depth > places[deepest].depth) && in_place(i, background) >= 0.5)
+      deepest = i;
+  return deepest;
+}
+
+std::vector<double> ObjectBelief::classes(const Background& background) const {
+  std::vector<double> b(background.classes(), 0.0);
+  for (const Version& version : versions)
+    for (std::size_t c = 0; c < b.size(); ++c)
+      b[c] += version.weight(p) * version.leaf.classes[c];
+  return b;
+}
+
+Utime ObjectBelief::last_seen() const {
+  Utime last = 0;
+  for (const Version& version : versions) last = std::max(last, version.leaf.last_seen);
+  return last;
+}
+
+std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double min_p,
+                                       const Background& background) {
+  std::vector<ObjectBelief> out;
+  for (const auto& cluster : belief.clusters)
+    for (std::size_t a = 0; a < cluster->anchors.size(); ++a) {
+      ObjectBelief object;
+      object.anchor = cluster->anchors[a].anchor;
+      const auto& leaves = cluster->anchors[a].leaves;
+      for (const auto& leaf : leaves) object.versions.push_back({0, predicted(*leaf, at, background)});
+      for (const Hypothesis& h : cluster->hypotheses)
+        if (h.leaf[a] != Hypothesis::kNoLeaf)
+          object.versions[h.leaf[a]].probability += std::exp(h.log_weight);
+      for (const auto& version : object.versions)
+        object.p += version.probability * version.leaf.existence;
+      object.best = cluster->hypotheses.front().leaf[a];
+      object.in_best = object.best >= 0 && object.versions[object.best].leaf.existence >= 0.5;
+      if (object.p >= min_p && object.p > 0) out.push_back(std::move(object));
+    }
+  std::sort(out.begin(), out.end(), [](const ObjectBelief& a, const ObjectBelief& b) {
+    return a.anchor->birth < b.anchor->birth;
+  });
+  return out;
+}
+
+std::vector<double> count_distribution(const Belief& belief, Utime at,
+                                       const Description& description, int place,
+                                       const Background& background) {
+  constexpr double kLeast = 1e-12;
+  const auto convolve = [](const std::vector<double>& x, const std::vector<double>& y) {
+    std::vector<double> z(x.size() + y.size() - 1, 0.0);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      for (std::size_t j = 0; j < y.size(); ++j) z[i + j] += x[i] * y[j];
+    while (z.size() > 1 && z.back() < kLeast) z.pop_back();
+    return z;
+  };
+  std::vector<double> total{1.0};
+  for (const auto& cluster : belief.clusters) {
+    // Per anchor and leaf: the probability that it counts, if the leaf is the true one.
+    std::vector<std::vector<double>> counts(cluster->anchors.size());
+    for (std::size_t a = 0; a < cluster->anchors.size(); ++a)
+      for (const auto& stored : cluster->anchors[a].leaves) {
+        const Leaf leaf = predicted(*stored, at, background);
+        double p = leaf.existence * match(leaf, description, background);
+        if (p > 0 && place >= 0) p *= mass_in_place(leaf, place, background);
+        counts[a].push_back(std::min(p, 1.0));
+      }
+    std::vector<double> mixed{0.0};
+    for (const Hypothesis& h : cluster->hypotheses) {
+      std::vector<double> number{1.0};
+      for (std::size_t a = 0; a < h.leaf.size(); ++a)
+        if (h.leaf[a] != Hypothesis::kNoLeaf && counts[a][h.leaf[a]] > 0)
+          number = convolve(number, {1 - counts[a][h.leaf[a]], counts[a][h.leaf[a]]});
+      if (mixed.size() < number.size()) mixed.resize(number.size(), 0.0);
+      for (std::size_t n = 0; n < number.size(); ++n)
+        mixed[n] += std::exp(h.log_weight) * number[n];
+    }
+    total = convolve(total, mixed);
+  }
+  return total;
+}
+
+double undetected(const Belief& belief, Utime at, const Description& description, int place,
+                  const Background& background) {
+  const Footprint& world = *background.footprint(-1);
+  const auto& overlap = background.overlap(world, place);
+  const double time = belief.frames == 0 ? 0 : belief.seconds(at);
+  double sum = 0;
+  for (int c = 0; c < background.classes(); ++c) {
+    double share = 1;
+    for (const auto& term : description.terms) {
+      const Attribute& attribute = background.knowledge.attributes[term.attribute];
+      if (term.attribute == background.knowledge.class_attribute)
+        share *= term.symbol == c ? 1 : 0;
+      else
+        share *= attribute.kind == Attribute::Kind::kCategorical
+                     ? 1.0 / static_cast<double>(attribute.symbols.size())
+                     : 0.0;
+    }
+    if (share == 0) continue;
+    double number = 0;
+    for (std::size_t i = 0; i < world.cells.size(); ++i)
+      if (overlap[i] > 0)
+        number += belief.undetected[c].at(world.cells[i], time) * overlap[i] * world.share[i];
+    sum += share * number * world.volume;
+  }
+  return sum;
+}
+
+}  // namespace anchord

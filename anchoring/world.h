@@ -1,0 +1,57 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "anchoring/belief.h"
+#include "anchoring/map_frame.h"
+#include "anchoring/visibility.h"
+#include "core/frame.h"
+#include "core/result.h"
+
+namespace anchord {
+
+/// The engine: folds frames into a belief. Given the same knowledge and the same frames in the
+/// same order it makes the same belief, to the bit. Reads no clock. Not thread-safe; a Belief that
+/// it has handed out may be read by any thread.
+class World {
+ public:
+  explicit World(Knowledge knowledge);
+
+  const std::shared_ptr<const Background>& background() const { return background_; }
+
+  /// Takes a frame. A frame that lies behind the newest one, by at most `world.max_lateness`, is
+  /// put in its place: the belief is the one that folding in the order (utime, acceptance) gives.
+  /// Refuses what place_in_map() does; kConflict: frames of one sensor out of time order, or one
+  /// that is too late. A refused frame changes nothing.
+  Status apply(const Frame& frame);
+
+  /// The checks of apply() alone.
+  Result<MapFrame> check(const Frame& frame) const;
+
+  /// The belief after the frames so far.
+  const std::shared_ptr<const Belief>& belief() const { return belief_; }
+
+  /// How many frames were put in place behind a newer one.
+  std::uint64_t late_frames() const { return late_frames_; }
+
+ private:
+  struct Step {
+    MapFrame frame;
+    std::shared_ptr<const Belief> before;
+  };
+  const Visibility& visibility(const MapFrame& frame);
+  void fold_from(std::size_t first);
+
+  std::shared_ptr<const Background> background_;
+  std::shared_ptr<const Belief> belief_;
+  std::deque<Step> recent_;  ///< the steps of the last max_lateness seconds, in order of utime
+  std::map<std::pair<std::string, std::string>, Utime> newest_;  ///< by robot and sensor
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const Visibility>> visibility_;
+  std::uint64_t late_frames_ = 0;
+};
+
+}  // namespace anchord

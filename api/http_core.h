@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <unordered_set>
+#include <vector>
+
+#include "api/http_server.h"
+
+namespace anchord {
+
+/// The inside of HttpServer: what its connections share. For http_server.cc and http_session.cc.
+
+/// One connection. It is closed by removing itself from its core.
+class HttpSession {
+ public:
+  virtual ~HttpSession() = default;
+  /// Reads requests and answers them.
+  virtual void start() = 0;
+  /// Tells that there are too many connections, and closes.
+  virtual void refuse() = 0;
+  /// From any thread: closes if no request has begun, or at once if it is forced.
+  virtual void stop(bool forced) = 0;
+};
+
+/// A reply that is still out keeps it alive beyond the server, so that it can always be given; it
+/// reaches no connection then.
+struct HttpCore : std::enable_shared_from_this<HttpCore> {
+  using tcp = boost::asio::ip::tcp;
+
+  HttpCore(HttpHandler the_handler, const HttpLimits& the_limits)
+      : handler(std::move(the_handler)), limits(the_limits) {}
+
+  void accept();
+  void accepted(tcp::socket socket);
+  void remove(const std::shared_ptr<HttpSession>& session) noexcept;
+  std::vector<std::shared_ptr<HttpSession>> all_sessions();
+
+  boost::asio::io_context io;  // first: destroyed after everything that runs on it
+  boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work{io.get_executor()};
+  HttpHandler handler;
+  const HttpLimits limits;
+  HttpCounters counters;
+  tcp::acceptor acceptor{boost::asio::make_strand(io)};
+  boost::asio::steady_timer accept_again{acceptor.get_executor()};
+  std::atomic<bool> stopping{false};
+  std::mutex mutex;
+  std::condition_variable removed;
+  std::unordered_set<std::shared_ptr<HttpSession>> sessions;  // guarded by mutex
+};
+
+std::shared_ptr<HttpSession> make_http_session(HttpCore& core, HttpCore::tcp::socket socket);
+
+}  // namespace anchord

@@ -1,0 +1,353 @@
+#include <boost/asio/dispatch.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http.hpp>
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "api/http_core.h"
+
+namespace anchord {
+
+namespace net = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using boost::system::error_code;
+using net::ip::tcp;
+using std::chrono::milliseconds;
+
+namespace {
+
+constexpr std::size_t kReadBytes = 16 * 1024;
+
+/// What the client gets for a request that cannot be read.
+HttpResponse refusal_of(error_code error, const HttpLimits& limits) {
+  if (error == http::error::header_limit)
+    return http_error(
+        431, "header_too_large",
+        "the request's header may have " + std::to_string(limits.header_bytes) + " bytes",
+        "header");
+  if (error == http::error::body_limit)
+    return http_error(413, "too_large",
+                      "the request's body may have " + std::to_string(limits.body_bytes) + " bytes",
+                      "body");
+  return http_error(400, "malformed", "this is no HTTP/1.1 request: " + error.message());
+}
+
+/// One connection: read a request, hand it over, write the answer, and again. At most one read, one
+/// write and one timer are under way; all of it runs on the socket's strand.
+class Session : public HttpSession, public std::enable_shared_from_this<Session> {
+ public:
+  Session(HttpCore& core, tcp::socket socket)
+      : core_(core), socket_(std::move(socket)), timer_(socket_.get_executor()) {}
+
+  void start() override {
+    net::post(socket_.get_executor(),
+              [self = shared_from_this()] { self->safely([&] { self->next_request(); }); });
+  }
+  void refuse() override {
+    net::post(socket_.get_executor(), [self = shared_from_this()] {
+      self->safely([&] {
+        self->parser_.emplace();
+        self->respond(http_error(503, "too_many_connections",
+                                 "the server has as many connections as it may; try again later"),
+                      false);
+      });
+    });
+  }
+  void stop(bool forced) override {
+    net::post(socket_.get_executor(), [self = shared_from_this(), forced] {
+      if (forced || self->state_ == State::kIdle) self->close();
+    });
+  }
+  /// From any thread of the server: the handler's answer.
+  void deliver(HttpResponse response) {
+    net::dispatch(socket_.get_executor(),
+                  [self = shared_from_this(), answer = std::move(response)]() mutable {
+                    if (self->state_ != State::kHandling) return;
+                    self->safely([&] { self->respond(std::move(answer), self->may_keep_alive()); });
+                  });
+  }
+
+ private:
+  enum class State { kIdle, kReading, kHandling, kWriting, kLingering, kClosed };
+
+  /// Nothing thrown here leaves: the connection ends, the server goes on.
+  template <typename Step>
+  void safely(Step step) noexcept {
+    try {
+      step();
+    } catch (...) {
+      ++core_.counters.failures;
+      close();
+    }
+  }
+
+  void close() noexcept {
+    if (std::exchange(state_, State::kClosed) == State::kClosed) return;
+    error_code ignored;
+    socket_.close(ignored);
+    try {
+      timer_.cancel();
+    } catch (...) {  // then it runs out and finds the session closed
+    }
+    core_.remove(shared_from_this());
+  }
+
+  bool may_keep_alive() const { return parser_->keep_alive() && !core_.stopping; }
+
+  void set_timer(milliseconds time) {
+    timer_.expires_after(time);
+    timer_.async_wait([self = shared_from_this()](error_code error) {
+      // It may have been set anew after it ran out and before this was called.
+      if (error || self->timer_.expiry() > net::steady_timer::clock_type::now()) return;
+      self->safely([&] { self->on_timer(); });
+    });
+  }
+
+  void on_timer() {
+    switch (state_) {
+      case State::kReading:
+        ++core_.counters.request_timeouts;
+        socket_.cancel();  // on_read() then sees that nobody waits for it
+        return respond(http_error(408, "timeout",
+                                  "the request was not complete within " +
+                                      std::to_string(core_.limits.request_time.count()) + " ms"),
+                       false);
+      case State::kIdle:
+        ++core_.counters.idle_closed;
+        return close();
+      case State::kWriting:
+        ++core_.counters.write_timeouts;
+        return close();
+      case State::kLingering:
+        return close();
+      case State::kHandling:
+      case State::kClosed:
+        return;
+    }
+  }
+
+  void next_request() {
+    parser_.emplace();
+    parser_->header_limit(static_cast<std::uint32_t>(core_.limits.header_bytes));
+    parser_->body_limit(core_.limits.body_bytes);
+    header_bytes_ = 0;
+    header_checked_ = false;
+    if (buffer_.size() > 0) {
+      begin_reading();
+      return parse();
+    }
+    if (core_.stopping) return close();
+    state_ = State::kIdle;
+    set_timer(core_.limits.idle_time);
+    read_more();
+  }
+
+  void begin_reading() {
+    state_ = State::kReading;
+    set_timer(core_.limits.request_time);
+  }
+
+  void read_more() {
+    socket_.async_read_some(buffer_.prepare(kReadBytes),
+                            [self = shared_from_this()](error_code error, std::size_t size) {
+                              self->safely([&] { self->on_read(error, size); });
+                            });
+  }
+
+  void on_read(error_code error, std::size_t size) {
+    if (state_ != State::kIdle && state_ != State::kReading) return;
+    if (error == net::error::eof && state_ == State::kReading)
+      return respond(refusal_of(http::error::partial_message, core_.limits), false);
+    if (error) return close();
+    if (state_ == State::kIdle) begin_reading();
+    buffer_.commit(size);
+    parse();
+  }
+
+  void parse() {
+    for (;;) {
+      if (buffer_.size() == 0) return read_more();
+      const bool in_header = !parser_->is_header_done();
+      error_code error;
+      const std::size_t used = parser_->put(buffer_.data(), error);
+      buffer_.consume(used);
+      // The parser's own limit starts anew with every piece that it takes.
+      if (in_header) header_bytes_ += used;
+      const bool need_more = error == http::error::need_more;
+      if ((in_header ? header_bytes_ : 0) + (need_more ? buffer_.size() : 0) >
+          core_.limits.header_bytes)
+        return respond(refusal_of(http::error::header_limit, core_.limits), false);
+      if (need_more) return read_more();
+      if (error) return respond(refusal_of(error, core_.limits), false);
+      if (parser_->is_header_done() && !std::exchange(header_checked_, true)) {
+        if (auto refused = check_header()) return respond(*std::move(refused), false);
+        parser_->eager(true);
+        if (!parser_->is_done() && expects_continue() && buffer_.size() == 0)
+          return send_continue();
+      }
+      if (parser_->is_done()) return handle();
+    }
+  }
+
+  /// What the parser lets through and HTTP/1.1 does not, and encodings that nobody here undoes.
+  std::optional<HttpResponse> check_header() const {
+    const auto& request = parser_->get();
+    if (request.version() >= 11 && request.count(http::field::host) != 1)
+      return http_error(400, "malformed", "the request must name its host once", "host");
+    const auto transfer = request[http::field::transfer_encoding];
+    if (!transfer.empty() && !beast::iequals(transfer, "chunked"))
+      return http_error(501, "unsupported", "a body may be chunked, and nothing else",
+                        "transfer-encoding");
+    const auto content = request[http::field::content_encoding];
+    if (!content.empty() && !beast::iequals(content, "identity"))
+      return http_error(415, "unsupported", "a body must not be compressed", "content-encoding");
+    if (request.count(http::field::expect) > 0 &&
+        !beast::iequals(request[http::field::expect], "100-continue"))
+      return http_error(417, "unsupported", "only 100-continue can be expected", "expect");
+    return std::nullopt;
+  }
+
+  bool expects_continue() const {
+    const auto& request = parser_->get();
+    return request.version() >= 11 && request.count(http::field::expect) > 0;
+  }
+
+  void send_continue() {
+    static constexpr char kContinue[] = "HTTP/1.1 100 Continue\r\n\r\n";
+    net::async_write(socket_, net::buffer(kContinue, sizeof kContinue - 1),
+                     [self = shared_from_this()](error_code error, std::size_t) {
+                       if (self->state_ != State::kReading) return;
+                       self->safely([&] { error ? self->close() : self->read_more(); });
+                     });
+  }
+
+  void handle();
+
+  /// Writes the answer; then comes the next request, or the end.
+  void respond(HttpResponse response, bool keep_alive) {
+    state_ = State::kWriting;
+    set_timer(core_.limits.write_time);
+    const auto& request = parser_->get();
+    if (response.status < 200 || response.status > 599) response.status = 500;
+    ++core_.counters.responses[response.status / 100];
+    const bool without_body = response.status == 204 || response.status == 304;
+    response_.emplace();
+    response_->version(request.version() == 10 ? 10 : 11);
+    response_->result(static_cast<unsigned>(response.status));
+    if (!without_body) {
+      response_->set(http::field::content_type, response.content_type);
+      response_->body() = std::move(response.body);
+    }
+    for (const auto& [name, value] : response.headers) response_->set(name, value);
+    response_->keep_alive(keep_alive);
+    response_->prepare_payload();
+    serializer_.emplace(*response_);
+    auto written = [self = shared_from_this(), keep_alive](error_code error, std::size_t) {
+      if (self->state_ != State::kWriting) return;
+      self->safely([&] { error ? self->close() : self->on_written(keep_alive); });
+    };
+    if (request.method() == http::verb::head)
+      http::async_write_header(socket_, *serializer_, std::move(written));
+    else
+      http::async_write(socket_, *serializer_, std::move(written));
+  }
+
+  void on_written(bool keep_alive) {
+    serializer_.reset();
+    response_.reset();
+    if (keep_alive) return next_request();
+    // Closing with bytes unread would reset the connection, and the answer with it.
+    error_code ignored;
+    socket_.shutdown(tcp::socket::shutdown_send, ignored);
+    state_ = State::kLingering;
+    set_timer(core_.limits.linger_time);
+    buffer_.clear();
+    discard();
+  }
+
+  void discard() {
+    socket_.async_read_some(buffer_.prepare(kReadBytes),
+                            [self = shared_from_this()](error_code error, std::size_t) {
+                              self->safely([&] { error ? self->close() : self->discard(); });
+                            });
+  }
+
+  HttpCore& core_;
+  tcp::socket socket_;
+  net::steady_timer timer_;
+  State state_ = State::kIdle;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::string_body>> parser_;
+  std::size_t header_bytes_ = 0;
+  bool header_checked_ = false;
+  std::optional<http::response<http::string_body>> response_;
+  std::optional<http::response_serializer<http::string_body>> serializer_;
+};
+
+/// A request's one answer; shared by the copies of its HttpReply.
+class Pending {
+ public:
+  Pending(std::shared_ptr<HttpCore> core, std::weak_ptr<Session> session)
+      : core_(std::move(core)), session_(std::move(session)) {}
+  ~Pending() {
+    if (answered_) return;
+    ++core_->counters.failures;
+    answer(http_error(500, "internal", "the request was dropped without an answer"));
+  }
+  Pending(const Pending&) = delete;
+  Pending& operator=(const Pending&) = delete;
+
+  void answer(HttpResponse response) noexcept {
+    if (answered_.exchange(true)) return;
+    try {
+      // Only a weak reference is queued: after the server's end nobody runs this.
+      net::post(core_->io, [session = session_, answer = std::move(response)]() mutable {
+        if (auto alive = session.lock()) alive->deliver(std::move(answer));
+      });
+    } catch (...) {  // no memory: the connection ends with the server
+      ++core_->counters.failures;
+    }
+  }
+
+ private:
+  std::shared_ptr<HttpCore> core_;
+  std::weak_ptr<Session> session_;
+  std::atomic<bool> answered_{false};
+};
+
+void Session::handle() {
+  state_ = State::kHandling;
+  timer_.cancel();
+  ++core_.counters.requests;
+  auto& message = parser_->get();
+  if (message.method() == http::verb::options)
+    return respond({204, "", "", {{"Allow", "GET, HEAD, POST, OPTIONS"}}}, may_keep_alive());
+  auto target = parse_target({message.target().data(), message.target().size()});
+  if (!target) return respond(http_error(target.error()), may_keep_alive());
+  const auto method =
+      message.method() == http::verb::head ? beast::string_view("GET") : message.method_string();
+  const auto content_type = message[http::field::content_type];
+  HttpRequest request{std::string(method), *std::move(target), std::string(content_type),
+                      std::move(message.body())};
+  auto pending = std::make_shared<Pending>(core_.shared_from_this(), weak_from_this());
+  try {
+    core_.handler(std::move(request),
+                  [pending](HttpResponse response) { pending->answer(std::move(response)); });
+  } catch (...) {
+    ++core_.counters.failures;
+    pending->answer(http_error(500, "internal", "the request could not be handled"));
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<HttpSession> make_http_session(HttpCore& core, tcp::socket socket) {
+  return std::make_shared<Session>(core, std::move(socket));
+}
+
+}  // namespace anchord

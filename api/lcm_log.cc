@@ -1,0 +1,104 @@
+#include "api/lcm_log.h"
+
+#include <array>
+#include <istream>
+#include <ostream>
+#include <utility>
+
+#include "lcmtypes/channels.h"
+#include "lcmtypes/codec.h"
+#include "lcmtypes/names.h"
+
+namespace anchord {
+namespace {
+
+constexpr std::uint32_t kSync = 0xEDA1DA01;
+constexpr std::size_t kHeaderBytes = 28;
+constexpr std::uint32_t kMaxChannelBytes = 1000;  // as liblcm's reader
+constexpr std::uint32_t kMaxDataBytes = 0x7fffffff;
+
+using Header = std::array<char, kHeaderBytes>;
+
+std::uint32_t read_u32(const Header& header, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    value = value << 8 | static_cast<std::uint8_t>(header[at + i]);
+  return value;
+}
+
+std::string event_field(std::int64_t index) { return "event[" + std::to_string(index) + "]"; }
+
+void append_big_endian(std::string& to, std::uint64_t value, int bytes) {
+  for (int i = bytes - 1; i >= 0; --i) to += static_cast<char>(value >> (8 * i));
+}
+
+}  // namespace
+
+Error LcmLogReader::damage(const char* message) {
+  damage_ = invalid(event_field(events_), message);
+  return *damage_;
+}
+
+Result<std::optional<std::vector<std::uint8_t>>> LcmLogReader::next(const std::string& channel) {
+  while (true) {
+    if (damage_) return *damage_;
+    Header header;
+    stream_.read(header.data(), header.size());
+    if (stream_.gcount() == 0) return std::optional<std::vector<std::uint8_t>>();
+    if (!stream_) return damage("the log ends inside the header of an event");
+    if (read_u32(header, 0) != kSync) return damage("no event of an LCM log starts here");
+    const std::uint32_t channel_bytes = read_u32(header, 20), data_bytes = read_u32(header, 24);
+    if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes) {
+      return damage("the channel's length must be 1 to 1000");
+    }
+    if (data_bytes > kMaxDataBytes) return damage("the data's length must not be negative");
+    std::string found(channel_bytes, '\0');
+    if (!stream_.read(found.data(), channel_bytes)) return damage("the log ends inside an event");
+    const bool wanted = found == channel;
+    const bool too_large = data_bytes > kMaxMessageBytes;
+    std::vector<std::uint8_t> data;
+    if (wanted && !too_large) {
+      data.resize(data_bytes);
+      stream_.read(reinterpret_cast<char*>(data.data()), data_bytes);
+    } else {
+      stream_.ignore(data_bytes);
+    }
+    if (stream_.gcount() != data_bytes) return damage("the log ends inside an event");
+    const std::int64_t index = events_++;
+    if (wanted && too_large) return invalid(event_field(index), "the message has more than 8 MiB");
+    if (wanted) return std::optional(std::move(data));
+  }
+}
+
+Result<std::optional<FrameMessage>> LcmLogReader::next_frame() {
+  auto data = next(kDetectionsChannel);
+  if (!data) return data.error();
+  if (!*data) return std::optional<FrameMessage>();
+  Result<FrameMessage> message = decode_frame(**data);
+  if (message) return std::optional(std::move(*message));
+  Error error = message.error();
+  const std::string event = event_field(events_ - 1);
+  error.field = error.field.empty() ? event : event + "." + error.field;
+  return error;
+}
+
+Status LcmLogWriter::write(const std::string& channel, Utime utime,
+                           std::span<const std::uint8_t> data) {
+  std::string header;
+  append_big_endian(header, kSync, 4);
+  append_big_endian(header, static_cast<std::uint64_t>(events_++), 8);
+  append_big_endian(header, static_cast<std::uint64_t>(utime), 8);
+  append_big_endian(header, channel.size(), 4);
+  append_big_endian(header, data.size(), 4);
+  stream_ << header << channel;
+  stream_.write(reinterpret_cast<const char*>(data.data()),
+                static_cast<std::streamsize>(data.size()));
+  if (!stream_) return Error{ErrorCode::kIo, "", "cannot write the LCM log"};
+  return Done{};
+}
+
+Status LcmLogWriter::write_frame(const Frame& frame) {
+  return write(kDetectionsChannel, frame.utime, encode(frame, ++frames_));
+}
+
+}  // namespace anchord

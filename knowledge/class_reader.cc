@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <set>
+
+#include "knowledge/configuration_reader.h"
+#include "knowledge/suggestion.h"
+
+namespace anchord {
+namespace {
+
+constexpr std::size_t kMostTransitions = 400, kMostArrivals = 1000;
+
+/// The class that `classes.default` starts from; documented at read_configuration().
+ObjectClass built_in_class() {
+  ObjectClass built_in;
+  built_in.models = {default_model(BehaviourModel::Kind::kConstantVelocity),
+                     default_model(BehaviourModel::Kind::kSomewhere)};
+  built_in.models[0].initial_weight = 1;
+  built_in.detection_probability = 0.9;
+  built_in.arrival_rate = 1e-5;
+  built_in.departure_rate = 1e-3;
+  built_in.undetected_intensity = 0.01;
+  return built_in;
+}
+
+/// The model at one end of a transition: `from` or `to`.
+std::optional<int> read_end(const JsonValue& transition, const char* key,
+                            const std::vector<BehaviourModel>& models) {
+  const auto value = transition.find(key);
+  if (!value) {
+    transition.mistake_at(transition.path_of(key), "is missing; it must be the index of a model");
+    return std::nullopt;
+  }
+  auto index = value->integer(0, static_cast<int>(models.size()) - 1);
+  if (index && !models[static_cast<std::size_t>(*index)].tracked()) {
+    value->mistake(
+        "is a somewhere model, which is entered at its own \"rate\" and left by a detection only");
+    index.reset();
+  }
+  return index;
+}
+
+std::vector<Transition> read_transitions(const JsonValue& value,
+                                         const std::vector<BehaviourModel>& models) {
+  std::vector<Transition> transitions;
+  std::set<std::pair<int, int>> seen;
+  for (const JsonValue& entry : value.elements(kMostTransitions)) {
+    if (!entry.object_of({"from", "to", "rate"})) continue;
+    const auto from = read_end(entry, "from", models), to = read_end(entry, "to", models);
+    Transition transition;
+    if (!entry.find("rate")) entry.mistake_at(entry.path_of("rate"), "is missing, 1/s");
+    entry.read("rate", transition.rate, kRate);
+    if (!from || !to) continue;
+    if (*from == *to) entry.mistake("must lead to another model");
+    if (!seen.insert({*from, *to}).second) {
+      entry.mistake("stands there already: give one rate from one model to another");
+    }
+    transition.from = *from;
+    transition.to = *to;
+    transitions.push_back(transition);
+  }
+  return transitions;
+}
+
+Arrival read_arrival(const JsonValue& value, const Knowledge& knowledge) {
+  Arrival arrival;
+  if (!value.object_of({"place", "mean", "covariance", "rate"})) return arrival;
+  const auto place = value.find("place");
+  const auto mean = value.find("mean"), covariance = value.find("covariance");
+  if (place && (mean || covariance)) {
+    value.mistake("must have either \"place\" or \"mean\" and \"covariance\"");
+  } else if (place) {
+    arrival.place = place->one_of(names(knowledge.places), "place").value_or(-1);
+  } else if (mean && covariance) {
+    arrival.mean = mean->point(knowledge.dims).value_or(arrival.mean);
+    if (const auto entries = covariance->covariance(knowledge.dims)) {
+      const Eigen::Map<const Eigen::MatrixXd> matrix(entries->data(), knowledge.dims,
+                                                     knowledge.dims);
+      arrival.covariance.topLeftCorner(knowledge.dims, knowledge.dims) = matrix;
+    }
+  } else {
+    value.mistake("must have \"place\", or \"mean\" and \"covariance\"");
+  }
+  if (!value.find("rate")) value.mistake_at(value.path_of("rate"), "is missing, arrivals per s");
+  value.read("rate", arrival.rate, kRate);
+  return arrival;
+}
+
+/// A class: what `value` says, and else as `base` is.
+ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge& knowledge) {
+  if (!value.object_of({"models", "transitions", "detection_probability", "arrival_rate",
+                        "arrivals", "departure_rate", "undetected_intensity", "extent"})) {
+    return base;
+  }
+  if (const auto models = value.find("models")) {
+    base.models = read_models(*models, knowledge);
+    base.transitions.clear();
+  }
+  if (const auto transitions = value.find("transitions")) {
+    base.transitions = read_transitions(*transitions, base.models);
+  }
+  value.read("detection_probability", base.detection_probability, kBelowCertain);
+  value.read("arrival_rate", base.arrival_rate, kNotNegative);
+  value.read("departure_rate", base.departure_rate, kRate);
+  value.read("undetected_intensity", base.undetected_intensity, kNotNegative);
+  if (const auto arrivals = value.find("arrivals")) {
+    base.arrivals.clear();
+    for (const JsonValue& entry : arrivals->elements(kMostArrivals)) {
+      base.arrivals.push_back(read_arrival(entry, knowledge));
+    }
+  }
+  if (const auto extent = value.find("extent")) {
+    if (const auto size = extent->numbers(3, kNotNegative)) {
+      base.extent = Eigen::Vector3d((*size)[0], (*size)[1], (*size)[2]);
+    }
+  }
+  return base;
+}
+
+}  // namespace
+
+void read_classes(const JsonValue& root, Knowledge& knowledge) {
+  std::vector<std::string> symbols;
+  if (knowledge.class_attribute >= 0) {
+    symbols = knowledge.attributes[static_cast<std::size_t>(knowledge.class_attribute)].symbols;
+  }
+  if (symbols.empty()) symbols = {"object"};
+  ObjectClass base = built_in_class();
+  const auto section = root.find("classes");
+  if (const auto entry = section ? section->find("default") : std::nullopt) {
+    base = read_class(*entry, std::move(base), knowledge);
+  }
+  for (const std::string& symbol : symbols) {
+    ObjectClass object_class = base;
+    if (const auto entry = section ? section->find(symbol) : std::nullopt) {
+      object_class = read_class(*entry, std::move(object_class), knowledge);
+    }
+    object_class.name = symbol;
+    knowledge.classes.push_back(std::move(object_class));
+  }
+  if (!section) return;
+  std::vector<std::string> known = symbols;
+  known.push_back("default");
+  const std::set<std::string> lookup(known.begin(), known.end());
+  for (const auto& [name, entry] : section->members()) {
+    if (lookup.count(name)) continue;
+    entry.mistake(knowledge.class_attribute >= 0
+                      ? "no symbol of the attribute \"class\"; " + suggestion(name, known)
+                      : "without an attribute \"class\" there is only \"object\"; name the classes "
+                        "in attributes.class.symbols");
+  }
+}
+
+}  // namespace anchord

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "knowledge/knowledge.h"
+
+namespace anchord {
+
+/// Something wrong in a configuration.
+struct ConfigurationMistake {
+  std::string path;     ///< where, such as `classes.cup.models[1].place`; empty: the whole file
+  std::string message;  ///< what is wrong, and what would be right
+
+  /// "path: message", or the message alone.
+  std::string text() const { return path.empty() ? message : path + ": " + message; }
+  bool operator==(const ConfigurationMistake&) const = default;
+};
+using ConfigurationMistakes = std::vector<ConfigurationMistake>;
+
+/// What a configuration says, or everything that is wrong with it, in the order of the file's
+/// sections.
+class [[nodiscard]] Configuration {
+ public:
+  Configuration(Knowledge knowledge) : content_(std::move(knowledge)) {}
+  Configuration(ConfigurationMistakes mistakes) : content_(std::move(mistakes)) {}
+
+  bool ok() const { return std::holds_alternative<Knowledge>(content_); }
+  /// Only where ok().
+  const Knowledge& knowledge() const { return std::get<Knowledge>(content_); }
+  /// Empty where ok().
+  ConfigurationMistakes mistakes() const {
+    return ok() ? ConfigurationMistakes{} : std::get<ConfigurationMistakes>(content_);
+  }
+
+ private:
+  std::variant<Knowledge, ConfigurationMistakes> content_;
+};
+
+/// Reads a configuration: one JSON file in UTF-8, comments (`//`, `/* */`) allowed.
+///
+/// `include` (a path or an array of paths, relative to the file that says it) takes other files
+/// in below this one: objects merge key by key, a later file wins over an earlier one and the
+/// including file over them all, the arrays `places` are joined. A file included twice counts once.
+///
+/// Unknown keys are mistakes. What may be left out, and what then holds:
+/// - `world`: `frame` "map", `dimensions` 3, `max_lateness` 0.5 s, `cell` 0.25 m, or as much more
+///   as keeps the world within kMaxCells cells. `bounds` may not be left out.
+/// - `places[]`: `kind` "", `parent` none, `z` the world's own.
+/// - a scalar attribute: `unit` "", no `predicates` (a bound may be null: none on that side; they
+///   are ordered by their bounds), `reference_density` 1 over the span of the finite predicate
+///   bounds, else 1.
+/// - a class: each key by itself from `classes.default`, then from the built-in class: a
+///   constant_velocity model with `acceleration_psd` 0.1 m^2/s^3 and `initial_velocity_variance`
+///   0.01 (m/s)^2, beside it `somewhere` in the world at `rate` 0.001 /s;
+///   `detection_probability` 0.9; `undetected_intensity` 0.01 per m^d, kept up by `arrival_rate`
+///   1e-5 per m^d and s against `departure_rate` 1e-3 /s; no `arrivals`, no `extent`.
+///   `transitions` count the models of the class that they stand in, so a class with `models` of
+///   its own inherits none.
+/// - a model: `position_psd` 0.001, `acceleration_psd` 0.1, `initial_velocity_variance` 0.01,
+/// `place` the world,
+///   `rate` 0.001, `detectable` true, `initial_weight` 0 (1 for the first tracked model where no
+///   model has one). Weights are normalised.
+/// - a sensor: each key by itself from `sensors.default`, then `clutter_density` 1e-3 per m^d, no
+///   `view` and no `noise`, `pose_floor` 0, `identity_doubt` 0.01. Its `detection_probability` (a
+///   number, or an object of them by class, in which "default" stands for those not named) goes
+///   before that of `sensors.default`, and that before the class's own.
+///   `noise` is a position covariance (row-major, sensor frame), or an object with `covariance`,
+///   that, and `polar`, the variances of range, bearing and elevation.
+///   `prior` and `confusion` are by attribute. A distribution that names only some symbols spreads
+///   what is left evenly over the others, and is normalised; priors are kept above 1e-6. A true
+///   symbol without a row in `confusion` is reported as itself. Where there is a confusion the
+///   prior has no effect.
+Configuration read_configuration(const std::filesystem::path& file);
+
+/// The same from memory. Includes are relative to `directory`; if that is empty, they are mistakes
+/// and no file is touched.
+Configuration parse_configuration(std::string_view text,
+                                  const std::filesystem::path& directory = {});
+
+/// Most cells that the world may have (Grid): the belief in undetected objects is kept per cell.
+inline constexpr double kMaxCells = 4e6;
+
+}  // namespace anchord

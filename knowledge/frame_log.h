@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "core/time.h"
+
+namespace anchord {
+
+/// One accepted frame as it stands in the log.
+struct LoggedFrame {
+  std::int64_t sequence = 0;  ///< order of acceptance, from 1, strictly increasing
+  Utime utime = 0;
+  std::string robot, sensor;
+  std::vector<std::uint8_t> bytes;  ///< the frame's canonical encoding; the log does not read it
+  bool operator==(const LoggedFrame&) const = default;
+};
+
+/// The log of accepted frames: the truth from which the belief is folded. It is a SQLite database,
+/// `anchord.db`, in a directory of its own, which one process holds at a time (`anchord.lock`).
+/// Other programs may read the database meanwhile.
+///
+/// The log keeps the order of acceptance. The belief is a function of the frames in the order
+/// (utime, sequence), and a frame may be accepted late; whoever folds the log in order of sequence
+/// puts late frames in their place just as when they came in, and reaches the same belief.
+///
+/// Frames are appended in batches. A frame is durable when the commit() of its batch has returned
+/// without Error: it then survives a kill of the process and a loss of power. After an Error of
+/// append() or commit() nothing of the batch is kept, every further append() and commit() is
+/// refused until rollback(), and the log is usable after that.
+///
+/// One thread at a time.
+class FrameLog {
+ public:
+  /// The format that this program writes; kept in the database's `user_version`.
+  static constexpr int kVersion = 1;
+
+  /// Opens the log in `directory` and creates both if missing. `max_bytes` bounds the database's
+  /// size, 0: by the disk alone; at the bound appends fail as on a full disk.
+  /// Errors: kIo: the directory cannot be made or written, the disk failed; kUnavailable: another
+  /// process holds the log; kConflict: `anchord.db` is of a newer version, of another program, or
+  /// no database at all; nothing in it is changed then.
+  static Result<std::unique_ptr<FrameLog>> open(const std::string& directory,
+                                                std::int64_t max_bytes = 0);
+  /// Rolls back an open batch.
+  ~FrameLog();
+  FrameLog(const FrameLog&) = delete;
+  FrameLog& operator=(const FrameLog&) = delete;
+
+  /// Adds a frame to the open batch, or begins one. kConflict: the sequence is not above
+  /// last_sequence(), or the sensor has a frame of that utime; the batch stands then.
+  Status append(const LoggedFrame& frame);
+  /// Makes the batch durable. Without a batch there is nothing to do.
+  Status commit();
+  /// Drops the batch.
+  void rollback();
+
+  /// The calls below see the open batch too.
+
+  /// 0 while the log is empty.
+  std::int64_t last_sequence() const;
+
+  enum class Presence { kNo, kSame, kDifferent };
+  /// Whether the sensor has a frame of that utime, and if so, whether with these bytes.
+  Result<Presence> contains(std::string_view robot, std::string_view sensor, Utime utime,
+                            const std::vector<std::uint8_t>& bytes);
+  /// The latest utime of the sensor's frames; nothing if it has none.
+  Result<std::optional<Utime>> latest(std::string_view robot, std::string_view sensor);
+  /// Every frame with `sequence >= from_sequence`, in order of sequence, until the callback says
+  /// false. The callback must not append.
+  Status for_each(std::int64_t from_sequence,
+                  const std::function<bool(const LoggedFrame&)>& callback);
+
+ private:
+  struct Store;
+  explicit FrameLog(std::unique_ptr<Store> store);
+  std::unique_ptr<Store> store_;
+};
+
+}  // namespace anchord

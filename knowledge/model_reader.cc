@@ -1,0 +1,104 @@
+#include <algorithm>
+
+#include "knowledge/configuration_reader.h"
+
+namespace anchord {
+namespace {
+
+constexpr std::size_t kMostModels = 20;
+const std::vector<std::string> kKinds = {"constant_position", "constant_velocity", "somewhere"};
+
+/// One model; `weighted` becomes true where it has an `initial_weight`.
+std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge& knowledge,
+                                         bool& weighted) {
+  if (!value.object()) return std::nullopt;
+  const auto kind = value.find("kind");
+  if (!kind) {
+    value.mistake_at(value.path_of("kind"), "is missing; it must be \"" + kKinds[0] + "\", \"" +
+                                                kKinds[1] + "\" or \"" + kKinds[2] + "\"");
+    return std::nullopt;
+  }
+  const auto index = kind->one_of(kKinds, "behaviour model");
+  if (!index) return std::nullopt;
+  BehaviourModel model = default_model(static_cast<BehaviourModel::Kind>(*index));
+  switch (model.kind) {
+    case BehaviourModel::Kind::kConstantPosition:
+      value.object_of({"kind", "position_psd", "initial_weight", "detectable"});
+      value.read("position_psd", model.psd, kNotNegative);
+      break;
+    case BehaviourModel::Kind::kConstantVelocity:
+      value.object_of({"kind", "acceleration_psd", "initial_velocity_variance", "initial_weight",
+                       "detectable"});
+      value.read("acceleration_psd", model.psd, kNotNegative);
+      value.read("initial_velocity_variance", model.initial_velocity_variance, kNotNegative);
+      break;
+    case BehaviourModel::Kind::kSomewhere:
+      value.object_of({"kind", "place", "rate", "detectable"});
+      if (const auto place = value.find("place")) {
+        model.place = place->one_of(names(knowledge.places), "place").value_or(-1);
+      }
+      value.read("rate", model.rate, kRate);
+      break;
+  }
+  value.read("detectable", model.detectable);
+  if (model.tracked()) {
+    weighted = weighted || value.find("initial_weight");
+    value.read("initial_weight", model.initial_weight, kNotNegative);
+  }
+  return model;
+}
+
+void weigh(const JsonValue& value, bool weighted, std::vector<BehaviourModel>& models) {
+  if (!weighted) {
+    const auto first = std::find_if(models.begin(), models.end(),
+                                    [](const BehaviourModel& model) { return model.tracked(); });
+    if (first != models.end()) first->initial_weight = 1;
+    return;
+  }
+  double sum = 0;
+  for (const BehaviourModel& model : models) sum += model.initial_weight;
+  if (!(sum > 0)) value.mistake("at least one initial_weight must be above 0");
+  for (BehaviourModel& model : models) model.initial_weight /= sum > 0 ? sum : 1;
+}
+
+}  // namespace
+
+BehaviourModel default_model(BehaviourModel::Kind kind) {
+  BehaviourModel model;
+  model.kind = kind;
+  switch (kind) {
+    case BehaviourModel::Kind::kConstantPosition:
+      model.psd = 0.001;
+      break;
+    case BehaviourModel::Kind::kConstantVelocity:
+      model.psd = 0.1;
+      model.initial_velocity_variance = 0.01;
+      break;
+    case BehaviourModel::Kind::kSomewhere:
+      model.rate = 0.001;
+      break;
+  }
+  return model;
+}
+
+std::vector<BehaviourModel> read_models(const JsonValue& value, const Knowledge& knowledge) {
+  std::vector<BehaviourModel> models;
+  bool weighted = false, all_read = value.json().is_array();
+  for (const JsonValue& entry : value.elements(kMostModels)) {
+    if (auto model = read_model(entry, knowledge, weighted)) {
+      models.push_back(*model);
+    } else {
+      all_read = false;
+    }
+  }
+  if (!all_read) return models;
+  if (std::none_of(models.begin(), models.end(), [](const BehaviourModel& model) {
+        return model.tracked() && model.detectable;
+      })) {
+    value.mistake("needs a constant_position or constant_velocity model that is detectable");
+  }
+  weigh(value, weighted, models);
+  return models;
+}
+
+}  // namespace anchord

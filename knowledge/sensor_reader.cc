@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/view.h"
+#include "knowledge/configuration_reader.h"
+
+namespace anchord {
+namespace {
+
+constexpr std::size_t kMostSensors = 100;
+constexpr double kLeastPrior = 1e-6;     // as the floor of reported probabilities
+constexpr double kMostProbable = 1.001;  // a sum of printed probabilities may be rounded
+
+/// A sensor whose detection probabilities are not yet filled up from the classes.
+struct Draft {
+  Sensor sensor;
+  std::vector<std::optional<double>> detection_probability;  // per class
+};
+
+std::vector<std::string> names(const std::vector<ObjectClass>& classes) {
+  std::vector<std::string> all;
+  for (const ObjectClass& object_class : classes) all.push_back(object_class.name);
+  return all;
+}
+
+void read_detection_probability(const JsonValue& value, const Knowledge& knowledge, Draft& draft) {
+  auto& all = draft.detection_probability;
+  if (!value.json().is_object()) {
+    if (!value.json().is_number()) {
+      value.mistake("must be a number, or an object with a number for each class");
+    } else if (const auto p = value.number(kBelowCertain)) {
+      all.assign(all.size(), *p);
+    }
+    return;
+  }
+  if (const auto rest = value.find("default")) {
+    if (const auto p = rest->number(kBelowCertain)) all.assign(all.size(), *p);
+  }
+  const std::vector<std::string> known = names(knowledge.classes);
+  for (const auto& [name, entry] : value.members()) {
+    if (name == "default") continue;
+    if (const auto index = entry.index_of(name, known, "class")) {
+      if (const auto p = entry.number(kBelowCertain)) all[static_cast<std::size_t>(*index)] = p;
+    }
+  }
+}
+
+void read_noise(const JsonValue& value, int dims, Sensor& sensor) {
+  if (value.json().is_array()) {
+    sensor.noise = value.covariance(dims).value_or(sensor.noise);
+    return;
+  }
+  if (!value.json().is_object()) {
+    value.mistake("must be a position covariance (an array of " + std::to_string(dims * dims) +
+                  R"( numbers), or an object with "covariance", "polar" or both)");
+    return;
+  }
+  value.object_of({"covariance", "polar"});
+  if (const auto covariance = value.find("covariance")) {
+    sensor.noise = covariance->covariance(dims).value_or(sensor.noise);
+  }
+  if (const auto polar = value.find("polar")) {
+    sensor.polar_noise = polar->numbers(3, kPositive).value_or(sensor.polar_noise);
+  }
+}
+
+/// Calls `read(attribute index, value)` for every member that names a categorical attribute.
+template <typename Read>
+void for_each_attribute(const JsonValue& value, const Knowledge& knowledge, Read read) {
+  std::vector<std::string> known;
+  for (const Attribute& attribute : knowledge.attributes) known.push_back(attribute.name);
+  for (const auto& [name, entry] : value.members()) {
+    const auto index = entry.index_of(name, known, "attribute");
+    if (!index) continue;
+    const Attribute& attribute = knowledge.attributes[static_cast<std::size_t>(*index)];
+    if (attribute.kind == Attribute::Kind::kScalar) {
+      entry.mistake("is a scalar attribute; only categorical ones have this");
+    } else {
+      read(static_cast<std::size_t>(*index), attribute, entry);
+    }
+  }
+}
+
+void read_prior(const JsonValue& value, const Knowledge& knowledge, Sensor& sensor) {
+  for_each_attribute(value, knowledge,
+                     [&](std::size_t a, const Attribute& attribute, const JsonValue& entry) {
+                       auto prior = read_distribution(entry, attribute.symbols);
+                       if (!prior) return;
+                       double sum = 0;
+                       for (double& p : *prior) sum += p = std::max(p, kLeastPrior);
+                       for (double& p : *prior) p /= sum;
+                       sensor.prior[a] = std::move(*prior);
+                     });
+}
+
+void read_confusion(const JsonValue& value, const Knowledge& knowledge, Sensor& sensor) {
+  for_each_attribute(value, knowledge,
+                     [&](std::size_t a, const Attribute& attribute, const JsonValue& entry) {
+                       const std::size_t n = attribute.symbols.size();
+                       std::vector<std::vector<double>> rows(n, std::vector<double>(n, 0.0));
+                       for (std::size_t s = 0; s < n; ++s) rows[s][s] = 1;
+                       for (const auto& [name, row] : entry.members()) {
+                         const auto s = row.index_of(name, attribute.symbols, "symbol");
+                         if (!s) continue;
+                         if (auto reported = read_distribution(row, attribute.symbols)) {
+                           rows[static_cast<std::size_t>(*s)] = std::move(*reported);
+                         }
+                       }
+                       sensor.confusion[a] = std::move(rows);
+                     });
+}
+
+/// A sensor: what `value` says, and else as `draft` is.
+Draft read_sensor(const JsonValue& value, Draft draft, const Knowledge& knowledge) {
+  if (!value.object_of({"clutter_density", "detection_probability", "view", "noise", "prior",
+                        "confusion", "pose_floor", "identity_doubt"})) {
+    return draft;
+  }
+  Sensor& sensor = draft.sensor;
+  value.read("clutter_density", sensor.clutter_density, kPositive);
+  value.read("pose_floor", sensor.pose_floor, kNotNegative);
+  value.read("identity_doubt", sensor.identity_doubt, kAboveImpossible);
+  if (const auto p = value.find("detection_probability")) {
+    read_detection_probability(*p, knowledge, draft);
+  }
+  if (const auto view = value.find("view")) sensor.view = read_view(*view, knowledge.dims);
+  if (const auto noise = value.find("noise")) read_noise(*noise, knowledge.dims, sensor);
+  if (const auto prior = value.find("prior")) read_prior(*prior, knowledge, sensor);
+  if (const auto confusion = value.find("confusion")) {
+    read_confusion(*confusion, knowledge, sensor);
+  }
+  return draft;
+}
+
+Sensor finished(Draft draft, std::string name, const Knowledge& knowledge) {
+  draft.sensor.name = std::move(name);
+  for (std::size_t c = 0; c < knowledge.classes.size(); ++c) {
+    draft.sensor.detection_probability.push_back(
+        draft.detection_probability[c].value_or(knowledge.classes[c].detection_probability));
+  }
+  return std::move(draft.sensor);
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> read_distribution(const JsonValue& value,
+                                                     const std::vector<std::string>& symbols) {
+  std::vector<std::optional<double>> named(symbols.size());
+  double sum = 0;
+  std::size_t count = 0;
+  bool right = value.json().is_object();
+  for (const auto& [name, entry] : value.members()) {
+    const auto index = entry.index_of(name, symbols, "symbol");
+    const auto p = index ? entry.number(kProbability) : std::nullopt;
+    right = right && p;
+    if (!p) continue;
+    named[static_cast<std::size_t>(*index)] = p;
+    sum += *p;
+    ++count;
+  }
+  if (!right) return std::nullopt;
+  const bool complete = count == symbols.size();
+  if (sum > kMostProbable || (complete && sum <= 0)) {
+    value.mistake("must sum to at most 1, and not to 0 where every symbol is named");
+    return std::nullopt;
+  }
+  const double rest =
+      complete ? 0 : std::max(0.0, 1 - sum) / static_cast<double>(symbols.size() - count);
+  std::vector<double> distribution;
+  for (const auto& p : named) distribution.push_back(p.value_or(rest));
+  const double total = sum + rest * static_cast<double>(symbols.size() - count);
+  for (double& p : distribution) p /= total;
+  return distribution;
+}
+
+void read_sensors(const JsonValue& root, Knowledge& knowledge) {
+  Draft base;
+  base.detection_probability.resize(knowledge.classes.size());
+  base.sensor.prior.resize(knowledge.attributes.size());
+  base.sensor.confusion.resize(knowledge.attributes.size());
+  for (std::size_t a = 0; a < knowledge.attributes.size(); ++a) {
+    const std::size_t n = knowledge.attributes[a].symbols.size();
+    base.sensor.prior[a].assign(n, 1 / static_cast<double>(n));
+  }
+  const auto section = root.find("sensors");
+  if (const auto entry = section ? section->find("default") : std::nullopt) {
+    base = read_sensor(*entry, std::move(base), knowledge);
+  }
+  knowledge.default_sensor = finished(base, "default", knowledge);
+  if (!section) return;
+  if (section->json().size() > kMostSensors + 1) section->mistake("has over 100 sensors");
+  for (const auto& [name, entry] : section->members()) {
+    if (name == "default" || !check_name(entry, name)) continue;
+    knowledge.sensors.push_back(finished(read_sensor(entry, base, knowledge), name, knowledge));
+  }
+}
+
+}  // namespace anchord

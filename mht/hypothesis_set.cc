@@ -1,0 +1,90 @@
+#include "mht/hypothesis_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <queue>
+
+#include "core/log_probability.h"
+
+namespace anchord {
+
+void normalise(HypothesisSet& set) {
+  std::stable_sort(set.begin(), set.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.log_weight > b.log_weight;
+  });
+  const double total = log_sum(set, [](const Hypothesis& h) { return h.log_weight; });
+  for (auto& h : set) h.log_weight -= total;
+}
+
+void merge_equal(HypothesisSet& set) {
+  std::map<std::vector<int>, std::size_t> first;
+  HypothesisSet merged;
+  for (auto& h : set) {
+    const auto [it, is_new] = first.try_emplace(h.leaf, merged.size());
+    if (is_new)
+      merged.push_back(std::move(h));
+    else
+      merged[it->second].log_weight = log_add(merged[it->second].log_weight, h.log_weight);
+  }
+  set = std::move(merged);
+  normalise(set);
+}
+
+double prune(HypothesisSet& set, int max, double min_weight) {
+  std::size_t keep = max > 0 ? std::min<std::size_t>(set.size(), max) : set.size();
+  const double least = min_weight > 0 ? std::log(min_weight) : kLogZero;
+  while (keep > 1 && set[keep - 1].log_weight < least) --keep;
+  double dropped = 0;
+  for (std::size_t i = keep; i < set.size(); ++i) dropped += std::exp(set[i].log_weight);
+  if (keep == set.size()) return 0;
+  set.resize(keep);
+  normalise(set);
+  return dropped;
+}
+
+HypothesisSet join(const HypothesisSet& a, const HypothesisSet& b, int max, double min_weight) {
+  struct Pair {
+    double log_weight;
+    std::size_t i, j;
+    bool operator<(const Pair& o) const {
+      if (log_weight != o.log_weight) return log_weight < o.log_weight;
+      return i != o.i ? i > o.i : j > o.j;
+    }
+  };
+  const auto weight = [&](std::size_t i, std::size_t j) {
+    return a[i].log_weight + b[j].log_weight;
+  };
+  const double least = min_weight > 0 ? std::log(min_weight) : kLogZero;
+  HypothesisSet out;
+  // Pair (i, j) is reached from (i, j - 1); (i, 0) from (i - 1, 0): each once.
+  std::priority_queue<Pair> heap;
+  heap.push({weight(0, 0), 0, 0});
+  while (!heap.empty() && (max == 0 || out.size() < static_cast<std::size_t>(max))) {
+    const Pair top = heap.top();
+    heap.pop();
+    if (top.log_weight < least && !out.empty()) break;
+    Hypothesis h{top.log_weight, a[top.i].leaf};
+    h.leaf.insert(h.leaf.end(), b[top.j].leaf.begin(), b[top.j].leaf.end());
+    out.push_back(std::move(h));
+    if (top.j + 1 < b.size()) heap.push({weight(top.i, top.j + 1), top.i, top.j + 1});
+    if (top.j == 0 && top.i + 1 < a.size()) heap.push({weight(top.i + 1, 0), top.i + 1, 0});
+  }
+  normalise(out);
+  return out;
+}
+
+HypothesisSet marginal(const HypothesisSet& set, const std::vector<int>& anchors) {
+  HypothesisSet out;
+  out.reserve(set.size());
+  for (const auto& h : set) {
+    Hypothesis part{h.log_weight, {}};
+    part.leaf.reserve(anchors.size());
+    for (int a : anchors) part.leaf.push_back(h.leaf[a]);
+    out.push_back(std::move(part));
+  }
+  merge_equal(out);
+  return out;
+}
+
+}  // namespace anchord

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+namespace anchord {
+
+/// One consistent choice of a leaf for every anchor of a cluster, with its probability: a possible
+/// world, as far as the cluster goes.
+struct Hypothesis {
+  /// The anchor is not part of this world.
+  static constexpr int kNoLeaf = -1;
+  double log_weight = 0;
+  std::vector<int> leaf;  ///< per anchor of the cluster
+};
+
+/// The hypotheses of one cluster, all over the same anchors. Functions keep them best first; equal
+/// weights keep their order.
+using HypothesisSet = std::vector<Hypothesis>;
+
+/// Sorts and scales the weights so that they sum to 1.
+void normalise(HypothesisSet& set);
+
+/// Makes one of those that choose the same leaves, with the sum of their weights; normalises.
+void merge_equal(HypothesisSet& set);
+
+/// Drops all but the best `max` (0: no bound) and those below `min_weight`, never the best one.
+/// The set must be normalised, and is again. Returns the probability that was dropped.
+double prune(HypothesisSet& set, int max, double min_weight);
+
+/// The product of two independent clusters, anchors of `a` first: its best `max` hypotheses (0:
+/// all) of at least `min_weight`, best first, found without forming the others. Normalised.
+HypothesisSet join(const HypothesisSet& a, const HypothesisSet& b, int max, double min_weight);
+
+/// What a set says about some of its anchors: their joint distribution, normalised.
+HypothesisSet marginal(const HypothesisSet& set, const std::vector<int>& anchors);
+
+}  // namespace anchord

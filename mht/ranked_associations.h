@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mht/assignment.h"
+
+namespace anchord {
+
+/// One frame's association within a cluster, in log-weights. Leaves and detections are numbers.
+struct AssociationProblem {
+  /// A hypothesis before the frame, its leaves taken as if each gave nothing and every detection
+  /// as new or clutter.
+  struct Parent {
+    double log_weight = 0;
+    std::vector<int> leaves;  ///< rows of `gain`
+  };
+  int detections = 0;
+  /// gain[leaf * detections + z]: ln of what it is worth to give z to the leaf instead,
+  /// ln (r g / (1 - r q)) - ln (kappa + e); kLogZero where it cannot be.
+  std::vector<double> gain;
+  std::vector<Parent> parents;
+};
+
+/// One hypothesis after the frame.
+struct Association {
+  static constexpr int kNone = -1;
+  int parent = 0;
+  double log_weight = 0;
+  std::vector<int> leaf_of;  ///< per detection a position in the parent's `leaves`, or kNone
+};
+
+/// All associations of a problem, best first, over all parents at once: one heap of subproblems
+/// (Murty 1968), each entered with a bound and solved only when it comes to the top (Miller, Stone,
+/// Cox 1997). Ties come in a fixed order.
+class RankedAssociations {
+ public:
+  explicit RankedAssociations(const AssociationProblem& problem);
+
+  /// The next best, or nothing when all have been given.
+  std::optional<Association> next();
+
+ private:
+  struct Node {
+    double bound;  // log weight, exact once solved
+    long order;    // of creation: breaks ties
+    int parent;
+    bool solved;
+    int banned_row;                    // the row that must change, -1 for a root
+    Assignment assignment;             // of the node it came from, until solved
+    std::vector<char> fixed;           // rows that may not change
+    std::vector<int> banned;           // entries of the cost matrix made infinite
+    bool operator<(const Node& other) const {
+      return bound != other.bound ? bound < other.bound : order > other.order;
+    }
+  };
+  const std::vector<double>& costs_of(int parent);
+  bool solve(Node& node);
+  void branch(const Node& node);
+  void push(Node node);
+
+  const AssociationProblem& problem_;
+  std::vector<std::vector<double>> costs_;  // per parent, made when first needed
+  std::vector<double> scratch_;
+  std::vector<Node> heap_;
+  long created_ = 0;
+};
+
+}  // namespace anchord

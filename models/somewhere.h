@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "geometry/gaussian.h"
+#include "geometry/grid.h"
+#include "geometry/region.h"
+#include "geometry/view.h"
+
+namespace anchord {
+
+/// The cells of a region, with the share of its area that lies in each: the support of `somewhere`
+/// and what expected numbers in a place are summed over. Shared by all densities over that place.
+struct Footprint {
+  Region region;
+  double volume = 0;  ///< m^dims
+  int dims = 2;
+  Grid grid;
+  std::vector<int> cells;          ///< grid indices, ascending
+  std::vector<double> share;       ///< of the region's area in each of them; sums to 1
+  std::vector<int> position_of;    ///< by grid index: where in `cells` it stands, or -1
+
+  /// The region must have a finite volume. The grid is that of the region's own bounding box,
+  /// aligned to `world`.
+  static Footprint of(const Region& region, const Grid& world, int dims);
+
+  /// Per cell the share of what lies in the region that lies in another region too: of its column
+  /// there, as if it filled the cell where the two polygons cut it differently.
+  std::vector<double> overlap(const Region& other) const;
+
+  /// Per cell the share of its column (between the region's heights) that is in view.
+  std::vector<double> visible(const MapView& view) const;
+};
+
+/// A density over a place that says: it is there somewhere. Uniform at first; where a sensor looked
+/// and saw nothing it becomes less. Piecewise constant on the footprint's cells. A value.
+class Somewhere {
+ public:
+  explicit Somewhere(std::shared_ptr<const Footprint> footprint)
+      : footprint_(std::move(footprint)) {}
+
+  const std::shared_ptr<const Footprint>& footprint() const { return footprint_; }
+
+  /// The density at a point, per m^dims; 0 outside the place.
+  double density(const Eigen::Vector3d& point) const;
+
+  /// The density convolved with a measurement's noise, at its mean: exact for the uniform part;
+  /// by 5 x 5 equally probable points for what was looked at already, unless the noise is small
+  /// against a cell, when the value of the mean's cell is taken.
+  double likelihood(const Gaussian& measurement) const;
+
+  /// The density's mass in view; `visible` from Footprint::visible().
+  double mass(const std::vector<double>& visible) const;
+  /// The density's mass in each of the footprint's cells, in order.
+  double mass_in(int cell_position) const;
+
+  /// Mass that enters is uniform: gamma <- (w gamma + dw U) / (w + dw). Weights >= 0, dw > 0.
+  void enter(double weight, double entering);
+
+  /// After a miss: the share p of the density in view goes, and the rest is normalised.
+  void miss(double p, const std::vector<double>& visible);
+
+  /// The mixture of two densities over the same place; weights > 0, any sum.
+  static Somewhere merge(double weight_a, const Somewhere& a, double weight_b, const Somewhere& b);
+
+  /// Mean and covariance of the position.
+  Gaussian moments() const;
+
+ private:
+  /// Density in a cell over the uniform one.
+  double relative(std::size_t i) const {
+    return looked_at_ ? weight_looked_ * (*looked_at_)[i] + (1 - weight_looked_) : 1.0;
+  }
+
+  std::shared_ptr<const Footprint> footprint_;
+  /// The density is weight_looked_ * looked_at_ + (1 - weight_looked_), over the uniform density.
+  std::shared_ptr<const std::vector<double>> looked_at_;
+  double weight_looked_ = 0;
+};
+
+}  // namespace anchord

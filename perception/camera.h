@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace anchord {
+
+/// The numbers of a calibrated camera: R. Y. Tsai, "A versatile camera calibration technique for
+/// high-accuracy 3D machine vision metrology", IEEE J. Robotics and Automation 3(4), 1987, with
+/// one radial coefficient. World in metres (translation too), sensor in millimetres, pixels
+/// counted from the centre of the upper left one, v down.
+struct CameraParameters {
+  int width = 0, height = 0;   ///< of the picture, pixels
+  double focal = 0;            ///< mm
+  double kappa1 = 0;           ///< 1/mm^2, from distorted to ideal
+  double cx = 0, cy = 0;       ///< pixel of the optical axis
+  double sx = 1;               ///< scale of the horizontal scan
+  double dpx = 0, dpy = 0;     ///< mm per pixel
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< rx, ry, rz; R = Rz(rz) Ry(ry) Rx(rx)
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< m; p_camera = R p_map + translation
+};
+
+/// Where a pixel's ray meets the ground, and how that moves with the pixel.
+struct GroundPoint {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m, map frame
+  Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();  ///< m per pixel: d(x, y) / d(u, v)
+};
+
+/// Between the map and the picture of a calibrated camera; the ground is z = 0.
+class Camera {
+ public:
+  explicit Camera(const CameraParameters& parameters);
+
+  int width() const { return parameters_.width; }
+  int height() const { return parameters_.height; }
+
+  /// The pixel (u, v) of a point of the map; it may lie outside the picture. The point must be in
+  /// front of the camera.
+  Eigen::Vector2d project(const Eigen::Vector3d& p_map) const;
+
+  /// The ground under a pixel; nothing at and above the horizon. Exact: the model's distortion is
+  /// given from picture to ray, so nothing is iterated.
+  std::optional<GroundPoint> to_ground(const Eigen::Vector2d& pixel) const;
+
+ private:
+  CameraParameters parameters_;
+  Eigen::Matrix3d rotation_;
+  Eigen::Vector3d centre_map_;
+};
+
+}  // namespace anchord

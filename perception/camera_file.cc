@@ -1,0 +1,185 @@
+#include "perception/camera_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "knowledge/configuration_file.h"
+#include "knowledge/json_reader.h"
+
+namespace anchord {
+
+namespace {
+
+constexpr std::size_t kMostColors = 100, kMostOccluders = 1000;
+constexpr Range kPicture{16, 16384};
+constexpr Range kWeight{-1e3, 1e3};
+
+/// A member that may not be left out.
+std::optional<JsonValue> needed(const JsonValue& in, const char* key) {
+  auto value = in.find(key);
+  if (!value) in.mistake_at(in.path_of(key), "is missing");
+  return value;
+}
+
+template <std::size_t n>
+std::array<double, n> needed_numbers(const JsonValue& in, const char* key, const Range& range) {
+  std::array<double, n> result{};
+  if (const auto value = needed(in, key)) {
+    if (const auto numbers = value->numbers(n, range)) {
+      std::copy(numbers->begin(), numbers->end(), result.begin());
+    }
+  }
+  return result;
+}
+
+double needed_number(const JsonValue& in, const char* key, const Range& range) {
+  const auto value = needed(in, key);
+  return value ? value->number(range).value_or(0) : 0;
+}
+
+void read_camera(const JsonValue& in, CameraParameters& camera) {
+  if (!in.object_of({"image", "focal", "kappa1", "center", "sx", "pixel", "rotation",
+                     "translation"})) {
+    return;
+  }
+  const auto image = needed_numbers<2>(in, "image", kPicture);
+  camera.width = static_cast<int>(image[0]);
+  camera.height = static_cast<int>(image[1]);
+  camera.focal = needed_number(in, "focal", kPositive);
+  camera.kappa1 = needed_number(in, "kappa1", kAnyNumber);
+  camera.sx = needed_number(in, "sx", kPositive);
+  const auto center = needed_numbers<2>(in, "center", kAnyNumber);
+  camera.cx = center[0];
+  camera.cy = center[1];
+  const auto pixel = needed_numbers<2>(in, "pixel", kPositive);
+  camera.dpx = pixel[0];
+  camera.dpy = pixel[1];
+  camera.rotation = Eigen::Vector3d(needed_numbers<3>(in, "rotation", kAnyNumber).data());
+  camera.translation = Eigen::Vector3d(needed_numbers<3>(in, "translation", kCoordinate).data());
+}
+
+std::vector<std::array<double, 2>> pixels(const JsonValue& in) {
+  std::vector<std::array<double, 2>> result;
+  for (const auto& point : in.polygon().value_or(std::vector<Eigen::Vector2d>{})) {
+    result.push_back({point.x(), point.y()});
+  }
+  return result;
+}
+
+void read_background(const JsonValue& in, Background::Settings& settings) {
+  in.object_of({"darkest", "brightest", "threshold", "width", "rate"});
+  in.read("darkest", settings.darkest, {0, 1, true});
+  in.read("brightest", settings.brightest, {1, 10});
+  in.read("threshold", settings.threshold, {0, 442});
+  in.read("width", settings.width, {0, 442, true});
+  in.read("rate", settings.rate, kProbability);
+}
+
+void read_people(const JsonValue& in, PersonSearch::Settings& settings) {
+  in.object_of(
+      {"height", "height_deviation", "false_foreground", "least_gain", "least_foot_row"});
+  in.read("height", settings.height_m, {0.3, 3});
+  in.read("height_deviation", settings.height_deviation_m, {0, 1, true});
+  in.read("false_foreground", settings.false_foreground, {0, 0.5, true});
+  in.read("least_gain", settings.least_gain, {0, 10, true});
+  in.read("least_foot_row", settings.least_foot_row, 0, 16384);
+}
+
+void read_deviation(const JsonValue& in, DetectorSettings::Noise& noise) {
+  in.object_of({"base", "covered", "weak"});
+  in.read("base", noise.base, {-10, 2});
+  in.read("covered", noise.covered, {0, 10});
+  in.read("weak", noise.weak, {0, 10});
+}
+
+void read_noise(const JsonValue& in, DetectorSettings& settings) {
+  in.object_of({"u", "v", "foot_offset"});
+  if (const auto u = in.find("u")) read_deviation(*u, settings.noise_u);
+  if (const auto v = in.find("v")) read_deviation(*v, settings.noise_v);
+  if (const auto offset = in.find("foot_offset")) {
+    if (const auto numbers = offset->numbers(2, {-1, 1})) {
+      settings.foot_offset = {(*numbers)[0], (*numbers)[1]};
+    }
+  }
+}
+
+void read_score(const JsonValue& in, DetectorSettings::Score& score) {
+  in.object_of({"bias", "gain", "filled", "observed", "alone", "likeness"});
+  in.read("bias", score.bias, kWeight);
+  in.read("gain", score.gain, kWeight);
+  in.read("filled", score.filled, kWeight);
+  in.read("observed", score.observed, kWeight);
+  in.read("alone", score.alone, kWeight);
+  in.read("likeness", score.likeness, kWeight);
+}
+
+void read_interval(const JsonValue& in, const char* key, const Range& range,
+                   double (&interval)[2]) {
+  if (const auto value = in.find(key)) {
+    if (const auto numbers = value->numbers(2, range)) {
+      interval[0] = (*numbers)[0];
+      interval[1] = (*numbers)[1];
+    }
+  }
+}
+
+void read_colors(const JsonValue& in, std::vector<NamedColor>& colors) {
+  for (const JsonValue& element : in.elements(kMostColors)) {
+    if (!element.object_of({"name", "hue", "saturation", "value"})) continue;
+    NamedColor color;
+    if (const auto name = needed(element, "name")) color.name = name->name().value_or("");
+    read_interval(element, "hue", {0, 360}, color.hue);
+    read_interval(element, "saturation", kProbability, color.saturation);
+    read_interval(element, "value", kProbability, color.value);
+    colors.push_back(color);
+  }
+  if (colors.empty()) in.mistake("must name at least one color");
+}
+
+std::optional<DetectorSettings> read(const std::optional<nlohmann::json>& document,
+                                     ConfigurationMistakes& mistakes) {
+  if (!document) return std::nullopt;
+  const JsonValue root(*document, "", mistakes);
+  DetectorSettings settings;
+  if (!root.object_of({"sensor", "camera", "view", "occluders", "background", "people", "noise",
+                       "score", "colors", "color_report"})) {
+    return std::nullopt;
+  }
+  root.read("sensor", settings.sensor);
+  if (const auto camera = needed(root, "camera")) read_camera(*camera, settings.camera);
+  if (const auto view = needed(root, "view")) settings.view = pixels(*view);
+  if (const auto occluders = root.find("occluders")) {
+    for (const JsonValue& each : occluders->elements(kMostOccluders)) {
+      settings.occluders.push_back(pixels(each));
+    }
+  }
+  if (const auto background = root.find("background")) {
+    read_background(*background, settings.background);
+  }
+  if (const auto people = root.find("people")) read_people(*people, settings.search);
+  if (const auto noise = root.find("noise")) read_noise(*noise, settings);
+  if (const auto score = root.find("score")) read_score(*score, settings.score);
+  if (const auto colors = needed(root, "colors")) read_colors(*colors, settings.clothes.colors);
+  if (const auto report = root.find("color_report")) {
+    report->object_of({"doubt", "sharpness", "least_pixels"});
+    report->read("doubt", settings.clothes.doubt, {0, 1, true});
+    report->read("sharpness", settings.clothes.sharpness, {0, 1});
+    report->read("least_pixels", settings.clothes.least_pixels, kNotNegative);
+  }
+  if (!mistakes.empty()) return std::nullopt;
+  return settings;
+}
+
+}  // namespace
+
+std::optional<DetectorSettings> read_camera_file(const std::filesystem::path& file,
+                                                 ConfigurationMistakes& mistakes) {
+  return read(load_document(file, mistakes), mistakes);
+}
+
+std::optional<DetectorSettings> parse_camera_file(std::string_view text,
+                                                  const std::filesystem::path& directory,
+                                                  ConfigurationMistakes& mistakes) {
+  return read(load_document(text, directory, mistakes), mistakes);
+}
+
+}  // namespace anchord

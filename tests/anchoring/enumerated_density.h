@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/frame.h"
+#include "knowledge/knowledge.h"
+
+/// The densities of the enumeration, written for clarity and nothing else.
+namespace anchord::enumeration {
+
+/// An axis-aligned rectangle of the map: x_min, y_min, x_max, y_max.
+using Rectangle = std::array<double, 4>;
+
+/// Splits a polygon of axis-parallel edges into disjoint rectangles. Aborts on any other polygon.
+std::vector<Rectangle> rectangles(const std::vector<Eigen::Vector2d>& polygon);
+
+/// The probability that a normal point of the plane lies in a rectangle: a product of error
+/// functions, or, where x and y are correlated, quadrature over x (error below 1e-13).
+double probability(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance,
+                   const Rectangle& rectangle);
+
+/// The normal density of `z`, in as many dimensions as it has.
+double normal_density(const Eigen::VectorXd& z, const Eigen::VectorXd& mean,
+                      const Eigen::MatrixXd& covariance);
+
+/// e^A by a Taylor series of A / 2^k, squared k times.
+Eigen::MatrixXd exponential(Eigen::MatrixXd a);
+
+/// What a frame could see, in the map.
+struct Sight {
+  bool everything = false;
+  std::vector<Rectangle> seen;  ///< nothing else is seen, unless `everything`
+
+  /// The frame's view, else the sensor's, else none. Aborts on sectors, frusta and poses.
+  static Sight of(const Frame& frame, const Sensor& sensor);
+  bool contains(const Eigen::Vector2d& point) const;
+};
+
+/// The world's bounds in square cells, row by row, x fastest; in 3-D each is a full-height column.
+struct Cells {
+  explicit Cells(const Knowledge& knowledge);
+
+  int dims;
+  Eigen::Vector2d origin;
+  double edge;  ///< m
+  int columns, rows;
+  double floor = 0, ceiling = 1;  ///< m; a 2-D world counts as 1 high
+
+  int count() const { return columns * rows; }
+  double volume() const { return edge * edge * (ceiling - floor); }  ///< of a cell, m^dims
+  int find(const Eigen::VectorXd& point) const;                      ///< or -1; z is not looked at
+  Eigen::Vector2d centre(int cell) const;
+};
+
+/// A region of whole cells between two heights.
+struct Extent {
+  Eigen::VectorXd uniform;  ///< per cell: 1 / number of cells in it, or 0
+  double floor = 0, ceiling = 1;
+};
+/// Of a place, or of the bounds if `place` is -1. Aborts if it is not made of whole cells.
+Extent extent(const Knowledge& knowledge, const Cells& cells, int place);
+
+/// Mean and covariance of a state: position, or position then velocity.
+struct Moments {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+
+/// The moments of the mixture of two densities with these weights, one of them positive.
+Moments merge(double weight_a, const Moments& a, double weight_b, const Moments& b);
+
+/// A state's moments as the state of a model: without velocity for one that has none; at rest,
+/// with the model's initial velocity variance, for one that has one more than the state.
+Moments fit(const Moments& state, const BehaviourModel& model, int dims);
+
+/// One behaviour model's share of an object. A model of weight 0 may have no moments.
+struct Density {
+  double weight = 0;
+  Moments state;          ///< tracked models
+  Eigen::VectorXd cells;  ///< somewhere: the probability of each cell; flat inside a cell
+};
+
+/// Position moments of a `somewhere` density.
+Moments moments(const Eigen::VectorXd& probabilities, const Cells& cells, const Extent& extent);
+
+}  // namespace anchord::enumeration
