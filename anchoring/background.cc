@@ -66,9 +66,7 @@ Background::Background(Knowledge k)
   for (const Place& place : knowledge.places)
     footprints_.push_back(
         std::make_shared<Footprint>(Footprint::of(place.region, grid, dims)));
-  for (const auto& footprint : footprints_)
-    for (const auto& other : footprints_)
-      overlaps_[footprint.get()].push_back(footprint->overlap(other->region));
+  compare_places();
   for (const ObjectClass& c : knowledge.classes) {
     dynamics.push_back(dynamics_of(c));
     arrivals.push_back(std::make_shared<ArrivalModel>(
@@ -79,6 +77,31 @@ Background::Background(Knowledge k)
   gate_distance2 = gate < 1 ? boost::math::quantile(boost::math::chi_squared(dims), gate)
                             : std::numeric_limits<double>::infinity();
   log_least_weight = std::log(knowledge.limits.min_weight);
+}
+
+void Background::compare_places() {
+  constexpr double kEdge = 1e-6;  // of a place's volume: shared edges are no overlap
+  const auto& places = knowledge.places;
+  for (std::size_t f = 0; f < footprints_.size(); ++f) {
+    const Footprint& footprint = *footprints_[f];
+    auto& overlaps = overlaps_[&footprint];
+    auto& any = overlaps_any_[&footprint];
+    any.assign(footprint.cells.size(), 0.0);
+    for (std::size_t other = 0; other < footprints_.size(); ++other) {
+      overlaps.push_back(footprint.overlap(footprints_[other]->region));
+      if (other == 0) continue;
+      double shared = 0;
+      for (std::size_t i = 0; i < any.size(); ++i) {
+        shared += overlaps.back()[i] * footprint.share[i];
+        any[i] = places[other - 1].parent < 0 ? std::min(1.0, any[i] + overlaps.back()[i])
+                                              : std::max(any[i], overlaps.back()[i]);
+      }
+      if (f == 0 || f == other) continue;
+      const bool both_outermost = places[f - 1].parent < 0 && places[other - 1].parent < 0;
+      const bool inner = places[f - 1].parent == static_cast<int>(other) - 1;
+      if ((both_outermost && shared > kEdge) || (inner && shared < 1 - kEdge)) places_nest_ = false;
+    }
+  }
 }
 
 }  // namespace anchord

@@ -41,12 +41,22 @@ struct Background {
   const std::vector<double>& overlap(const Footprint& footprint, int place) const {
     return overlaps_.at(&footprint)[place + 1];
   }
+  /// Per cell of one of these footprints the share that lies in any place.
+  const std::vector<double>& overlap_any(const Footprint& footprint) const {
+    return overlaps_any_.at(&footprint);
+  }
+  /// Whether outermost places are disjoint and every inner one lies in its parent.
+  bool places_nest() const { return places_nest_; }
   const ObjectClass& object_class(int c) const { return knowledge.classes[c]; }
   int classes() const { return static_cast<int>(knowledge.classes.size()); }
 
  private:
   std::vector<std::shared_ptr<const Footprint>> footprints_;
   std::map<const Footprint*, std::vector<std::vector<double>>> overlaps_;
+  std::map<const Footprint*, std::vector<double>> overlaps_any_;
+  bool places_nest_ = true;
+
+  void compare_places();
 };
 
 }  // namespace anchord

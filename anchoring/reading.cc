@@ -1,7 +1,10 @@
 #include "anchoring/reading.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "geometry/gaussian_mass.h"
 #include "geometry/standard_normal.h"
@@ -19,6 +22,38 @@ Leaf predicted(const Leaf& leaf, Utime at, const Background& background) {
   Leaf out = leaf;
   if (at > leaf.utime) predict(out, at, background);
   return out;
+}
+
+/// The mass of a density in the union of all places. Where outermost places are disjoint and hold
+/// their inner ones, the sum over the outermost; else by equally probable points.
+double mass_in_any_place(const Gaussian& density, const Background& background) {
+  const auto& places = background.knowledge.places;
+  if (background.places_nest()) {
+    double sum = 0;
+    for (const Place& place : places)
+      if (place.parent < 0) sum += mass(density, place.region, background.dims);
+    return std::min(sum, 1.0);
+  }
+  constexpr int kSteps = 11;
+  const int depth = background.dims == 3 ? kSteps : 1;
+  const auto quantile = [](int i) {
+    return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * (i + 0.5) / kSteps);
+  };
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(density.covariance);
+  const Eigen::Vector3d spread = axes.eigenvalues().cwiseMax(0).cwiseSqrt();
+  int inside = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j)
+      for (int k = 0; k < depth; ++k) {
+        // Eigenvalues ascend: in a 2-D world the first is the absent axis.
+        const Eigen::Vector3d u(depth > 1 ? quantile(k) : 0.0, quantile(i), quantile(j));
+        const Eigen::Vector3d x =
+            density.mean + axes.eigenvectors() * spread.cwiseProduct(u);
+        inside += std::any_of(places.begin(), places.end(), [&](const Place& place) {
+          return place.region.contains(x, background.dims);
+        });
+      }
+  return static_cast<double>(inside) / (kSteps * kSteps * depth);
 }
 
 }  // namespace
@@ -84,6 +119,27 @@ double mass_in_place(const Leaf& leaf, int place, const Background& background) 
     const auto& somewhere = std::get<Somewhere>(model.density);
     sum += model.weight * somewhere.mass(background.overlap(*somewhere.footprint(), place));
   }
+  return std::min(sum, 1.0);
+}
+
+double mass_outside_places(const Leaf& leaf, const Background& background) {
+  double inside = 0;
+  for (const ModelState& model : leaf.models) {
+    if (model.weight <= 0) continue;
+    const auto* kinematic = std::get_if<Kinematic>(&model.density);
+    inside += model.weight *
+              (kinematic ? mass_in_any_place(kinematic->position_density(), background)
+                         : std::get<Somewhere>(model.density)
+                               .mass(background.overlap_any(
+                                   *std::get<Somewhere>(model.density).footprint())));
+  }
+  return std::clamp(1 - inside, 0.0, 1.0);
+}
+
+double ObjectBelief::outside_places(const Background& background) const {
+  double sum = 0;
+  for (const Version& version : versions)
+    sum += version.weight(p) * mass_outside_places(version.leaf, background);
   return std::min(sum, 1.0);
 }
 

@@ -28,6 +28,8 @@ struct ObjectBelief {
   Gaussian moments(const Background& background) const;
   /// P(in the place | exists); `place` -1 is the world's bounds.
   double in_place(int place, const Background& background) const;
+  /// P(outside every place | exists).
+  double outside_places(const Background& background) const;
   /// The deepest place that holds at least half of the density, or -1.
   int place(const Background& background) const;
   /// Marginal class distribution, given that it exists.
@@ -57,6 +59,9 @@ const Kinematic& position_of(const Leaf& leaf);
 Gaussian moments(const Leaf& leaf);
 /// The mass of a leaf's density in a place (-1: the world's bounds).
 double mass_in_place(const Leaf& leaf, int place, const Background& background);
+
+/// The mass of a leaf's density outside every place.
+double mass_outside_places(const Leaf& leaf, const Background& background);
 
 /// Every anchor of p >= min_p at time `at` (not before the belief's), in order of birth.
 std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double min_p,

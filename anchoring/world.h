@@ -3,6 +3,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,7 +17,7 @@ namespace anchord {
 
 /// The engine: folds frames into a belief. Given the same knowledge and the same frames in the
 /// same order it makes the same belief, to the bit. Reads no clock. Not thread-safe; a Belief that
-/// it has handed out may be read by any thread.
+/// it has handed out may be read by any thread. Copying one is cheap: copies share what they hold.
 class World {
  public:
   explicit World(Knowledge knowledge);
@@ -35,12 +36,15 @@ class World {
   /// The belief after the frames so far.
   const std::shared_ptr<const Belief>& belief() const { return belief_; }
 
+  /// utime of the newest frame of this frame's sensor, if there is one.
+  std::optional<Utime> newest(const Frame& frame) const;
+
   /// How many frames were put in place behind a newer one.
   std::uint64_t late_frames() const { return late_frames_; }
 
  private:
   struct Step {
-    MapFrame frame;
+    std::shared_ptr<const MapFrame> frame;
     std::shared_ptr<const Belief> before;
   };
   const Visibility& visibility(const MapFrame& frame);

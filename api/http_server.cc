@@ -113,9 +113,9 @@ void HttpCore::accepted(tcp::socket socket) {
     if (stopping) return;
     sessions.insert(session);
     count = sessions.size();
+    ++counters.connections;
+    ++counters.open;
   }
-  ++counters.connections;
-  ++counters.open;
   if (count <= limits.connections) return session->start();
   ++counters.refused;
   // Even telling them takes a connection for a moment: beyond twice the limit nobody is told.

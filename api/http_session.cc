@@ -45,11 +45,14 @@ class Session : public HttpSession, public std::enable_shared_from_this<Session>
       : core_(core), socket_(std::move(socket)), timer_(socket_.get_executor()) {}
 
   void start() override {
-    net::post(socket_.get_executor(),
-              [self = shared_from_this()] { self->safely([&] { self->next_request(); }); });
+    net::post(socket_.get_executor(), [self = shared_from_this()] {
+      if (self->state_ == State::kClosed) return;  // stopped before it began
+      self->safely([&] { self->next_request(); });
+    });
   }
   void refuse() override {
     net::post(socket_.get_executor(), [self = shared_from_this()] {
+      if (self->state_ == State::kClosed) return;
       self->safely([&] {
         self->parser_.emplace();
         self->respond(http_error(503, "too_many_connections",

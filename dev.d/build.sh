@@ -9,9 +9,10 @@ configure_and_build() {
   jobs=$(nproc)
   if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   say "configuring $folder (preset $preset${launcher:+, with ccache})"
-  "${around_build[@]}" cmake --preset "$preset" "${launcher[@]}" -Wno-dev >"$CACHE/configure.log" 2>&1 || {
-    tail -n 40 "$CACHE/configure.log" >&2
-    fail "CMake could not configure; the lines above are the end of $CACHE/configure.log"
+  local log=$CACHE/configure.log
+  "${around_build[@]}" cmake --preset "$preset" "${launcher[@]}" -Wno-dev >"$log" 2>&1 || {
+    tail -n 40 "$log" >&2
+    fail "CMake could not configure; the lines above are the end of $log"
   }
   cmake --build "$folder" -- -t cleandead >/dev/null  # programs that are no longer built
   say "building ${*:-everything} in $folder, $jobs at a time"
@@ -32,7 +33,7 @@ command_build() {
 
 # programs: what a user runs, leaving out tests and benchmarks.
 programs() {
-  find build -maxdepth 1 -type f -executable ! -name '*_test' ! -name '*_bench' ! -name '*.so*' | sort
+  find build -maxdepth 1 -type f -executable ! -name '*_test' ! -name '*_bench' | sort
 }
 
 command_bench() {

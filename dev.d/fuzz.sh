@@ -1,15 +1,15 @@
 # shellcheck shell=bash
-# Fuzzing: every build-fuzz/*_fuzz for a while, nproc at a time. fuzz/corpus/TARGET holds the inputs
-# to start from; what a run finds beside them grows in .cache/fuzz/TARGET, and the few of those that reach
-# new code are merged into fuzz/corpus/TARGET. An input that breaks a target stays as
-# .cache/fuzz/TARGET-crash-HASH (or -timeout-, -oom-).
+# Fuzzing: every build-fuzz/*_fuzz for a while, nproc at a time. fuzz/corpus/NAME holds the
+# inputs to start from; what a run finds beside them grows in .cache/fuzz/NAME, and the few of those
+# that reach new code are merged into fuzz/corpus/NAME. An input that breaks NAME_fuzz stays as
+# .cache/fuzz/NAME-crash-HASH (or -timeout-, -oom-).
 
 command_fuzz() {
   local seconds=${1:-60}
   [[ $seconds =~ ^[1-9][0-9]*$ ]] || fail "fuzz takes a number of seconds, not $seconds" 2
   need "${PACKAGES_BUILD[@]}" "${PACKAGES_FUZZ[@]}"
   mkdir -p "$CACHE/fuzz"
-  configure_and_build fuzz build-fuzz
+  configure_and_build fuzz build-fuzz fuzz/all
   local targets
   mapfile -t targets < <(find build-fuzz -maxdepth 2 -type f -executable -name '*_fuzz' | sort)
   ((${#targets[@]})) || fail "no fuzz target was built: expected build-fuzz/*_fuzz"
@@ -27,7 +27,7 @@ command_fuzz() {
 # fuzz_target PROGRAM SECONDS: one target, its result in a line; a failure also as NAME.failed.
 fuzz_target() {
   local program=$1 seconds=$2 name corpus grown log
-  name=$(basename "$program")
+  name=$(basename "$program" _fuzz)
   corpus=fuzz/corpus/$name grown=$CACHE/fuzz/$name log=$CACHE/fuzz/$name.log
   mkdir -p "$corpus" "$grown"
   export ASAN_SYMBOLIZER_PATH=/usr/bin/llvm-symbolizer-14
@@ -40,6 +40,7 @@ fuzz_target() {
     return
   fi
   "$program" -merge=1 "$corpus" "$grown" >>"$log" 2>&1
-  echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | head -n 1) inputs tried," \
-    "$(find "$corpus" -type f | wc -l) in the corpus"
+  local tried
+  tried=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | head -n 1)
+  echo "$name: $tried inputs tried, $(find "$corpus" -type f | wc -l) in the corpus"
 }

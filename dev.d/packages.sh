@@ -46,7 +46,8 @@ need() {
 # missing_packages PACKAGE...: those that are not installed, one per line.
 missing_packages() {
   local installed
-  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p') || true
+  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null |
+    sed -n 's/^installed //p') || true
   printf '%s\n' "$@" | grep -vxF "$installed" || true
 }
 

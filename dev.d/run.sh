@@ -49,9 +49,10 @@ daemon='' watcher=''
 start_daemon() {
   local port=$1 url=$2 data=$3
   ctl=(build/anchorctl --http "127.0.0.1:$port")
-  say "starting the daemon: build/anchord --config $RUN_CONFIG --data $data --lcm $url --http 127.0.0.1:$port"
-  build/anchord --config "$RUN_CONFIG" --data "$data" --lcm "$url" --http "127.0.0.1:$port" \
-    >"$data/anchord.log" 2>&1 &
+  local command=(build/anchord --config "$RUN_CONFIG" --data "$data" --lcm "$url"
+    --http "127.0.0.1:$port")
+  say "starting the daemon: ${command[*]}"
+  "${command[@]}" >"$data/anchord.log" 2>&1 &
   daemon=$!
   local tries
   for ((tries = 0; tries < 100; tries++)); do
@@ -65,10 +66,10 @@ start_daemon() {
 
 play_log() {
   local url=$1
-  say "playing $RUN_LOG over LCM, $RUN_SPEED times as fast as it happened; what is believed meanwhile:"
+  say "playing $RUN_LOG over LCM, $RUN_SPEED times as fast as it happened; believed meanwhile:"
   "${ctl[@]}" watch &
   watcher=$!
-  build/anchor-play --lcm "$url" --speed "$RUN_SPEED" "$RUN_LOG" || fail "the log could not be played"
+  build/anchor-play --lcm "$url" --speed "$RUN_SPEED" "$RUN_LOG" || fail "the log did not play"
   sleep 0.5  # lets the last frames arrive: LCM gives no acknowledgement
   kill "$watcher" 2>/dev/null || true
   wait "$watcher" 2>/dev/null || true

@@ -57,7 +57,7 @@ within_multicast() {
   if "${namespace[@]}" bash -c "$prepare" 2>/dev/null; then
     "${namespace[@]}" bash -c "$prepare && exec \"\$@\"" bash "${around_build[@]}" "$@"
   else
-    say "no network namespaces here: without a multicast route the tests over real LCM will skip. As root:"
+    say "no network namespaces here: without a multicast route, tests over real LCM skip. As root:"
     say "  ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo"
     "${around_build[@]}" "$@"
   fi

@@ -172,30 +172,40 @@ bool MapView::contains(const Eigen::Vector3d& point_map) const {
 std::array<double, 4> MapView::bounds() const { return bounds_; }
 
 /// The box around the near and the far end of every ray of a grid of directions that holds the
-/// edges of the view. Between its nodes the view can reach out further only to second order.
+/// edges of the view. Between its nodes the view reaches out further only to second order: by
+/// 1/8 of the step squared on the sphere; twice that is added.
 std::array<double, 4> MapView::reach() const {
-  constexpr int kSteps = 24;
+  constexpr int kSteps = 16;
+  const int rows = dims_ == 2 ? 0 : kSteps;
   const double bearing_step = bearing_width_ / kSteps;
-  const double elevation_from = dims_ == 2 ? 0 : elevation_min_;
   const double elevation_step = dims_ == 2 ? 0 : (elevation_max_ - elevation_min_) / kSteps;
+  std::array<Eigen::Vector2d, kSteps + 1> bearing, elevation;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double b = bearing_from_ + bearing_step * i, e = elevation_min_ + elevation_step * i;
+    bearing[i] = {std::cos(b), std::sin(b)};
+    elevation[i] = {std::cos(e), std::sin(e)};
+  }
   std::array<double, 4> box{kInfinity, kInfinity, -kInfinity, -kInfinity};
   for (int i = 0; i <= kSteps; ++i) {
-    const double bearing = bearing_from_ + bearing_step * i;
-    for (int j = 0; j <= (dims_ == 2 ? 0 : kSteps); ++j) {
-      const double angle = elevation_from + elevation_step * j;
-      // A frustum's planes are steeper against a ray that is off its axis.
-      const double elevation =
-          type_ == View::Type::kFrustum ? std::atan(std::tan(angle) * std::cos(bearing)) : angle;
-      const Eigen::Vector3d direction(std::cos(elevation) * std::cos(bearing),
-                                      std::cos(elevation) * std::sin(bearing), std::sin(elevation));
+    for (int j = 0; j <= rows; ++j) {
+      Eigen::Vector3d ray(bearing[i].x(), bearing[i].y(), 0);
+      if (dims_ == 3 && type_ == View::Type::kFrustum) {
+        ray.z() = ray.x() * elevation[j].y() / elevation[j].x();
+        ray.normalize();
+      } else if (dims_ == 3) {
+        ray *= elevation[j].x();
+        ray.z() = elevation[j].y();
+      }
+      const Eigen::Vector2d across = rotation_.topRows<2>() * ray;
       for (const double range : {range_min_, range_max_}) {
-        const Eigen::Vector3d end = origin_ + rotation_ * direction * range;
+        const Eigen::Vector2d end = origin_.head<2>() + across * range;
         box = {std::min(box[0], end.x()), std::min(box[1], end.y()), std::max(box[2], end.x()),
                std::max(box[3], end.y())};
       }
     }
   }
-  const double slack = range_max_ * (bearing_step * bearing_step + elevation_step * elevation_step);
+  const double slack =
+      range_max_ * (bearing_step * bearing_step + elevation_step * elevation_step) / 4;
   return {box[0] - slack, box[1] - slack, box[2] + slack, box[3] + slack};
 }
 

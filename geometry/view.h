@@ -50,6 +50,11 @@ class MapView {
     double least() const;
   };
 
+  /// The limits that do not cut a density, and whether it is outside of one altogether.
+  struct Clearance {
+    bool range, bearing, elevation, outside;
+  };
+
   Status set_sector(const View& view);
   Status set_frustum(const View& view);
   Status set_range(const View& view);
@@ -62,6 +67,8 @@ class MapView {
   Depth depth(const Eigen::Vector3d& p) const;
   double cell_share(const Eigen::Vector3d& p, const Eigen::Vector3d& extent) const;
   double polygon_share(const Eigen::Vector3d& box_min, const Eigen::Vector3d& box_max) const;
+  Clearance clearance(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance,
+                      const Depth& at_mean, double sphere) const;
   double flat_mass(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance) const;
   double solid_mass(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance) const;
 

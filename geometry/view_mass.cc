@@ -25,17 +25,31 @@ constexpr double kReach = 5.7;
 constexpr double kTolerance = 3e-7;
 const double kRootTwoPi = std::sqrt(2 * kPi);
 
+/// The integral of s^n exp(-(s - m)^2 / 2) from a to b needs, with t = s - m: e^(-t^2/2) at the
+/// ends, and the integral of that. What is beyond kClear is left out; most rays have but one end.
+struct RayPart {
+  double at_start = 0, at_end = 0, between = 0;
+
+  RayPart(double t0, double t1) {
+    if (t0 >= kClear || t1 <= -kClear) return;
+    double start = 2, end = 0;  // erfc
+    if (t0 > -kClear)
+      at_start = std::exp(-t0 * t0 / 2), start = std::erfc(t0 / std::numbers::sqrt2);
+    if (t1 < kClear) at_end = std::exp(-t1 * t1 / 2), end = std::erfc(t1 / std::numbers::sqrt2);
+    between = kRootTwoPi / 2 * (start - end);
+  }
+};
+
 /// Integral of s exp(-(s - m)^2 / 2) from a to b.
 double first_moment(double m, double a, double b) {
-  const double t0 = a - m, t1 = b - m;
-  return std::exp(-t0 * t0 / 2) - std::exp(-t1 * t1 / 2) + m * kRootTwoPi * normal_between(t0, t1);
+  const RayPart part(a - m, b - m);
+  return part.at_start - part.at_end + m * part.between;
 }
 
 /// Integral of s^2 exp(-(s - m)^2 / 2) from a to b.
 double second_moment(double m, double a, double b) {
-  const double t0 = a - m, t1 = b - m;
-  return (a + m) * std::exp(-t0 * t0 / 2) - (b + m) * std::exp(-t1 * t1 / 2) +
-         (1 + m * m) * kRootTwoPi * normal_between(t0, t1);
+  const RayPart part(a - m, b - m);
+  return (a + m) * part.at_start - (b + m) * part.at_end + (1 + m * m) * part.between;
 }
 
 /// The plane seen from the sensor in coordinates where the density is standard normal about
@@ -75,6 +89,54 @@ double wedge_mass(const Vector2d& mean, const Matrix2d& covariance, double from,
 
 }  // namespace
 
+/// Where a density stands against the limits, looking at its spread across each of them. A sphere
+/// of kClear standard deviations has been tried before; this sharpens what it left open.
+MapView::Clearance MapView::clearance(const Vector3d& mean, const Matrix3d& covariance,
+                                      const Depth& at_mean, double sphere) const {
+  const auto deviation = [&](const Vector3d& normal) {
+    return kClear * std::sqrt(std::max(normal.dot(covariance * normal), 0.0));
+  };
+  Clearance clear{at_mean.range >= sphere, at_mean.bearing >= sphere, at_mean.elevation >= sphere,
+                  false};
+  if (!clear.range) {
+    const double distance = mean.norm();
+    const double radial = deviation(mean / std::max(distance, 1e-12));
+    const double across = std::max(sphere * sphere - radial * radial, 0.0);
+    const double farthest = std::sqrt((distance + radial) * (distance + radial) + across);
+    clear.range = farthest <= range_max_ && (range_min_ == 0 || distance - radial >= range_min_);
+    clear.outside = distance - radial >= range_max_;
+  }
+  if (!clear.bearing) {
+    bool inside[2], outside[2];
+    for (int i = 0; i < 2; ++i) {
+      const double depth = bearing_normal_[i].dot(mean), spread = deviation(bearing_normal_[i]);
+      inside[i] = depth >= spread;
+      outside[i] = depth <= -spread;
+    }
+    const bool narrow = bearing_width_ <= kPi;
+    clear.bearing = narrow ? inside[0] && inside[1] : inside[0] || inside[1];
+    clear.outside |= narrow ? outside[0] || outside[1] : outside[0] && outside[1];
+  }
+  if (!clear.elevation) {
+    const bool planes = type_ == View::Type::kFrustum;
+    const double flat = along(mean);
+    const Vector3d outward =
+        planes ? Vector3d(1, 0, 0) : Vector3d(mean.x(), mean.y(), 0) / std::max(flat, 1e-12);
+    clear.elevation = true;
+    const auto test = [&](const Vector2d& normal) {
+      // A cone's outside is convex on one side of the horizon and its inside on the other; there
+      // the plane that touches it bounds what lies beyond.
+      const double depth = normal.dot(Vector2d(flat, mean.z()));
+      const double spread = deviation(normal.x() * outward + Vector3d(0, 0, normal.y()));
+      clear.elevation &= depth >= sphere || ((planes || normal.x() >= 0) && depth >= spread);
+      clear.outside |= (planes || normal.x() <= 0) && depth <= -spread;
+    };
+    if (has_floor_) test(floor_normal_);
+    if (has_ceiling_) test(ceiling_normal_);
+  }
+  return clear;
+}
+
 double MapView::mass(const Gaussian& density) const {
   if (sees_everything()) return 1;
   if (sees_nothing()) return 0;
@@ -82,20 +144,19 @@ double MapView::mass(const Gaussian& density) const {
   const Vector3d mean = in_sensor(density.mean);
   const Depth at_mean = depth(mean);
   const auto& c = density.covariance;
-  const double clear = kClear * std::sqrt(c(0, 0) + c(1, 1) + (dims_ == 3 ? c(2, 2) : 0));
-  if (at_mean.least() >= clear) return 1;
-  if (at_mean.least() <= -clear) return 0;
+  const double sphere = kClear * std::sqrt(c(0, 0) + c(1, 1) + (dims_ == 3 ? c(2, 2) : 0));
+  if (at_mean.least() >= sphere) return 1;
+  if (at_mean.least() <= -sphere) return 0;
   const Matrix3d covariance = rotation_.transpose() * c * rotation_;
+  const Clearance clear = clearance(mean, covariance, at_mean, sphere);
+  if (clear.outside) return 0;
+  if (clear.range && clear.bearing && clear.elevation) return 1;
   const Matrix2d flat = covariance.topLeftCorner<2, 2>();
-  if (at_mean.range >= clear) {
-    if (at_mean.elevation >= clear)
-      return wedge_mass(mean.head<2>(), flat, bearing_from_, bearing_width_);
-    if (type_ == View::Type::kFrustum && at_mean.bearing >= clear) {
-      const Matrix2d upright = covariance({0, 2}, {0, 2});
-      return wedge_mass({mean.x(), mean.z()}, upright, elevation_min_,
-                        elevation_max_ - elevation_min_);
-    }
-  }
+  if (clear.range && clear.elevation)
+    return wedge_mass(mean.head<2>(), flat, bearing_from_, bearing_width_);
+  if (clear.range && clear.bearing && type_ == View::Type::kFrustum)
+    return wedge_mass({mean.x(), mean.z()}, covariance({0, 2}, {0, 2}), elevation_min_,
+                      elevation_max_ - elevation_min_);
   const double sum = dims_ == 2 ? flat_mass(mean.head<2>(), flat) : solid_mass(mean, covariance);
   return std::clamp(sum, 0.0, 1.0);
 }

@@ -16,8 +16,8 @@ ObjectClass built_in_class() {
                      default_model(BehaviourModel::Kind::kSomewhere)};
   built_in.models[0].initial_weight = 1;
   built_in.detection_probability = 0.9;
-  built_in.arrival_rate = 1e-5;
-  built_in.departure_rate = 1e-3;
+  built_in.arrival_rate = 1e-4;
+  built_in.departure_rate = 0;
   built_in.undetected_intensity = 0.01;
   return built_in;
 }

@@ -46,10 +46,11 @@ class [[nodiscard]] Configuration {
 /// `include` (a path or an array of paths, relative to the file that says it) takes other files
 /// in below this one: objects merge key by key, a later file wins over an earlier one and the
 /// including file over them all, the arrays `places` are joined. A file included twice counts once.
+/// Where a file cannot be had or is no JSON, that is all that is said: nothing else could be sure.
 ///
 /// Unknown keys are mistakes. What may be left out, and what then holds:
-/// - `world`: `frame` "map", `dimensions` 3, `max_lateness` 0.5 s, `cell` 0.25 m, or as much more
-///   as keeps the world within kMaxCells cells. `bounds` may not be left out.
+/// - `world`: `frame` "map", `dimensions` 3, `max_lateness` 0.5 s, `cell` 0.25 m, doubled
+///   until the world has at most kMaxCells cells. `bounds` may not be left out.
 /// - `places[]`: `kind` "", `parent` none, `z` the world's own.
 /// - a scalar attribute: `unit` "", no `predicates` (a bound may be null: none on that side; they
 ///   are ordered by their bounds), `reference_density` 1 over the span of the finite predicate
@@ -57,14 +58,13 @@ class [[nodiscard]] Configuration {
 /// - a class: each key by itself from `classes.default`, then from the built-in class: a
 ///   constant_velocity model with `acceleration_psd` 0.1 m^2/s^3 and `initial_velocity_variance`
 ///   0.01 (m/s)^2, beside it `somewhere` in the world at `rate` 0.001 /s;
-///   `detection_probability` 0.9; `undetected_intensity` 0.01 per m^d, kept up by `arrival_rate`
-///   1e-5 per m^d and s against `departure_rate` 1e-3 /s; no `arrivals`, no `extent`.
+///   `detection_probability` 0.9; `undetected_intensity` 0.01 per m^d, `arrival_rate` 1e-4 per
+///   m^d and s, `departure_rate` 0; no `arrivals`, no `extent`.
 ///   `transitions` count the models of the class that they stand in, so a class with `models` of
 ///   its own inherits none.
 /// - a model: `position_psd` 0.001, `acceleration_psd` 0.1, `initial_velocity_variance` 0.01,
-/// `place` the world,
-///   `rate` 0.001, `detectable` true, `initial_weight` 0 (1 for the first tracked model where no
-///   model has one). Weights are normalised.
+///   `place` the world, `rate` 0.001, `detectable` true, `initial_weight` 0 (1 for the first
+///   tracked model where no model has one). Weights are normalised; somewhere models have none.
 /// - a sensor: each key by itself from `sensors.default`, then `clutter_density` 1e-3 per m^d, no
 ///   `view` and no `noise`, `pose_floor` 0, `identity_doubt` 0.01. Its `detection_probability` (a
 ///   number, or an object of them by class, in which "default" stands for those not named) goes

@@ -21,8 +21,8 @@ struct BehaviourModel {
   Kind kind = Kind::kConstantPosition;
   double psd = 0;  ///< constant_position: position_psd, m^2/s; constant_velocity: m^2/s^3
   double initial_velocity_variance = 0;  ///< constant_velocity, (m/s)^2
-  int place = -1;       ///< somewhere: index of its place, -1 for the world's bounds
-  double rate = 0;      ///< somewhere: 1/s at which every tracked model enters it
+  int place = -1;             ///< somewhere: index of its place, -1 for the world's bounds
+  double rate = 0;            ///< somewhere: 1/s at which every tracked model enters it
   double initial_weight = 0;  ///< in a new anchor; those of a class sum to 1, somewhere has 0
   bool detectable = true;
 
@@ -39,7 +39,7 @@ struct Transition {
 
 /// Arrivals concentrated somewhere, beside the uniform rate.
 struct Arrival {
-  int place = -1;                   ///< uniform over it, or, if -1, normal:
+  int place = -1;  ///< uniform over it, or, if -1, normal:
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double rate = 0;  ///< expected arrivals per second, over the whole of it
@@ -50,10 +50,10 @@ struct ObjectClass {
   std::vector<BehaviourModel> models;
   std::vector<Transition> transitions;
   double detection_probability = 0.9;
-  double arrival_rate = 0;          ///< beta_c, uniform part, per m^d and s
+  double arrival_rate = 0;  ///< beta_c, uniform part, per m^d and s
   std::vector<Arrival> arrivals;
-  double departure_rate = 0;        ///< mu_c, 1/s
-  double undetected_intensity = 0;  ///< lambda_c at the start, per m^d
+  double departure_rate = 0;                         ///< mu_c, 1/s
+  double undetected_intensity = 0;                   ///< lambda_c at the start, per m^d
   Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< length, width, height, m; zeros: unknown
 };
 
@@ -66,10 +66,10 @@ struct Attribute {
   enum class Kind { kCategorical, kScalar };
   std::string name;
   Kind kind = Kind::kCategorical;
-  std::vector<std::string> symbols;    ///< categorical
-  std::string unit;                    ///< scalar
-  std::vector<Predicate> predicates;   ///< scalar, in the order of their bounds
-  double reference_density = 1;        ///< scalar, per unit
+  std::vector<std::string> symbols;   ///< categorical
+  std::string unit;                   ///< scalar
+  std::vector<Predicate> predicates;  ///< scalar, in the order of their bounds
+  double reference_density = 1;       ///< scalar, per unit
 
   /// Index of a symbol (categorical) or predicate (scalar), or -1.
   int find(std::string_view symbol) const;
@@ -88,7 +88,7 @@ struct Sensor {
   double clutter_density = 1e-3;              ///< kappa, per frame and m^d
   std::vector<double> detection_probability;  ///< per class
   std::optional<View> view;                   ///< sensor frame
-  std::vector<double> noise;     ///< row-major covariance, d*d numbers; empty: none configured
+  std::vector<double> noise;        ///< row-major covariance, d*d numbers; empty: none configured
   std::vector<double> polar_noise;  ///< variances of range, bearing, elevation; empty: none
   /// Per attribute: the prior pi over its symbols (sums to 1, each above 0); uniform unless
   /// configured, empty for a scalar.
@@ -96,17 +96,17 @@ struct Sensor {
   /// Per attribute: C[true][reported], rows sum to 1; empty where there is none. It goes before
   /// the prior.
   std::vector<std::vector<std::vector<double>>> confusion;
-  double pose_floor = 0;          ///< m^2
+  double pose_floor = 0;  ///< m^2
   double identity_doubt = 0.01;
 };
 
 /// What bounds the work. All off (0; gate 1): the engine is exact.
 struct Limits {
-  int max_hypotheses = 100;        ///< per cluster; 0: no bound
-  double min_weight = 1e-6;        ///< of a hypothesis within its cluster
+  int max_hypotheses = 100;          ///< per cluster; 0: no bound
+  double min_weight = 1e-6;          ///< of a hypothesis within its cluster
   double gate_probability = 0.9999;  ///< 1: no gate
-  int scan_depth = 20;             ///< frames; 0: none
-  double min_existence = 1e-4;     ///< of a leaf
+  int scan_depth = 20;               ///< frames; 0: none
+  double min_existence = 1e-4;       ///< of a leaf
 };
 
 struct Knowledge {
@@ -114,12 +114,12 @@ struct Knowledge {
   int dims = 3;
   Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< z = 0 in a 2-D world
   Eigen::Vector3d bounds_max = Eigen::Vector3d::Zero();
-  double cell = 0.25;             ///< m
-  double max_lateness = 0.5;      ///< s
+  double cell = 0.25;         ///< m
+  double max_lateness = 0.5;  ///< s
   std::vector<Place> places;
   std::vector<Attribute> attributes;
   int class_attribute = -1;          ///< index of the attribute `class`, or -1
-  std::vector<ObjectClass> classes;  ///< one per symbol of `class`, in its order; else one, `object`
+  std::vector<ObjectClass> classes;  ///< one per symbol of `class`, in order; else one, `object`
   std::vector<Sensor> sensors;       ///< the named ones
   Sensor default_sensor;
   Limits limits;

@@ -33,7 +33,7 @@ std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge
       value.read("initial_velocity_variance", model.initial_velocity_variance, kNotNegative);
       break;
     case BehaviourModel::Kind::kSomewhere:
-      value.object_of({"kind", "place", "rate", "detectable"});
+      value.object_of({"kind", "place", "rate", "initial_weight", "detectable"});
       if (const auto place = value.find("place")) {
         model.place = place->one_of(names(knowledge.places), "place").value_or(-1);
       }
@@ -41,10 +41,8 @@ std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge
       break;
   }
   value.read("detectable", model.detectable);
-  if (model.tracked()) {
-    weighted = weighted || value.find("initial_weight");
-    value.read("initial_weight", model.initial_weight, kNotNegative);
-  }
+  weighted = weighted || value.find("initial_weight");
+  value.read("initial_weight", model.initial_weight, kNotNegative);
   return model;
 }
 

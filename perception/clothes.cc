@@ -10,7 +10,7 @@ namespace {
 
 // The jacket or shirt, without head, hands and what shows beside the body: in heights.
 constexpr double kChestTop = 0.20, kChestBottom = 0.48, kChestHalfWidth = 0.11;
-constexpr double kLeastShare = 0.005;  ///< a pixel or two: not worth a name in the report
+constexpr double kLeastShare = 0.02;  ///< less is not worth a name in the report
 
 bool within(double x, const double (&interval)[2]) {
   return x >= interval[0] && x <= interval[1];
@@ -64,7 +64,7 @@ SymbolReport ClothesColors::report(const std::vector<double>& shares) const {
   SymbolReport report;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     if (shares[i] < kLeastShare) continue;
-    const double p = std::round(weight(shares[i]) / sum * 1e4) * 1e-4;
+    const double p = std::round(weight(shares[i]) / sum * 1e4) / 1e4;
     report.probabilities.emplace_back(settings_.colors[i].name, p);
   }
   return report;

@@ -19,6 +19,7 @@ Explanation::Explanation(const cv::Mat1f& foreground, const cv::Mat1b& observabl
       observable_(observable),
       false_foreground_(false_foreground),
       log_background_(foreground.size(), static_cast<float>(std::log1p(-false_foreground))),
+      explained_(foreground.size(), static_cast<float>(false_foreground)),
       news_(cv::Mat1f::zeros(foreground.size())) {
   for (std::size_t i = 0; i < kPixels; ++i) {
     const double coverage = (static_cast<double>(i) + 0.5) / kPixels;
@@ -51,9 +52,9 @@ void Explanation::change(const Silhouette& person, double sign) {
       const double coverage = person.coverage(x, y);
       if (coverage < kLeastCoverage) continue;
       log_background_(y, x) += static_cast<float>(sign * std::log1p(-coverage));
+      const double explained = std::max(1.0 - std::exp(log_background_(y, x)), false_foreground_);
+      explained_(y, x) = static_cast<float>(explained);
       if (!observable_(y, x)) continue;
-      const double background = std::exp(log_background_(y, x));
-      const double explained = std::max(1 - background, false_foreground_);
       news_(y, x) = foreground_(y, x) *
                     static_cast<float>(std::log(explained) / std::log(false_foreground_));
     }
@@ -77,7 +78,7 @@ Explanation::Gain Explanation::gain(const Silhouette& person) const {
       const double seen = foreground_(y, x);
       gain.won += (1 - seen) * pixel.hole;
       if (seen == 0) continue;
-      const double explained = -std::expm1(log_background_(y, x));
+      const double explained = explained_(y, x);
       gain.won += seen * (explained < 1.01 * false_foreground_
                               ? pixel.news
                               : std::log1p(coverage * (1 - explained) / explained));

@@ -48,6 +48,7 @@ class Explanation {
   double false_foreground_;
   std::array<Pixel, kPixels> pixels_{};  ///< by coverage, 0 to 1
   cv::Mat1f log_background_;  ///< of the probability that a pixel is background, given the people
+  cv::Mat1f explained_;       ///< the probability that it is foreground
   cv::Mat1f news_;
   cv::Mat1d news_sum_, holes_sum_;
 };

@@ -11,6 +11,7 @@
 #include "api/json_text.h"
 #include "lcmtypes/codec.h"
 #include "lcmtypes/names.h"
+#include "tests/lcmtypes/random_frames.h"
 #include "tests/lcmtypes/sample_frames.h"
 
 namespace anchord {
@@ -177,7 +178,9 @@ TEST(FrameJson, RefusesWhatIsNoJson) {
 }
 
 TEST(FrameJson, BoundsDepthAndSize) {
-  const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  const auto nested = [](std::size_t depth) {
+    return std::string(depth, '[') + std::string(depth, ']');
+  };
   EXPECT_TRUE(parse_json(nested(kMaxJsonDepth)).ok());
   EXPECT_FALSE(parse_json(nested(kMaxJsonDepth + 1)).ok());
   EXPECT_FALSE(parse_json(nested(1'000'000)).ok());

@@ -64,14 +64,14 @@ TEST(LcmLog, GivesBackFramesAndSkipsOtherChannels) {
 }
 
 TEST(LcmLog, LiblcmReadsWhatIsWritten) {
-  char path[] = "/tmp/anchord-lcm-log-XXXXXX";
-  const int file = mkstemp(path);
+  std::string path = ::testing::TempDir() + "anchord-lcm-log-XXXXXX";
+  const int file = mkstemp(path.data());
   ASSERT_GE(file, 0);
   const std::string log = sample_log();
   ASSERT_EQ(write(file, log.data(), log.size()), static_cast<ssize_t>(log.size()));
   close(file);
   lcm::LogFile reader(path, "r");
-  std::remove(path);
+  std::remove(path.c_str());
   std::vector<std::string> channels;
   std::vector<std::int64_t> numbers, times;
   while (const lcm::LogEvent* event = reader.readNextEvent()) {
@@ -86,8 +86,8 @@ TEST(LcmLog, LiblcmReadsWhatIsWritten) {
 }
 
 TEST(LcmLog, ReadsWhatLiblcmWrites) {
-  char path[] = "/tmp/anchord-lcm-log-XXXXXX";
-  const int file = mkstemp(path);
+  std::string path = ::testing::TempDir() + "anchord-lcm-log-XXXXXX";
+  const int file = mkstemp(path.data());
   ASSERT_GE(file, 0);
   close(file);
   std::vector<std::uint8_t> bytes = encode(frame_at(5), 9);
@@ -101,7 +101,7 @@ TEST(LcmLog, ReadsWhatLiblcmWrites) {
     ASSERT_EQ(writer.writeEvent(&event), 0);
   }
   std::ifstream stream(path, std::ios::binary);
-  std::remove(path);
+  std::remove(path.c_str());
   LcmLogReader reader(stream);
   const auto read = reader.next_frame();
   ASSERT_TRUE(read.ok() && *read);

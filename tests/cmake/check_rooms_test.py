@@ -58,6 +58,7 @@ class CheckRooms(unittest.TestCase):
 
     def test_project_headers_are_included_from_the_root(self):
         self.assertEqual(len(self.violations("core/a.cc", '#include "b.h"\n')), 1)
+        self.assertEqual(self.violations("tools/x/a.cc", '#include "b.h"\n'), [])
 
 
 if __name__ == "__main__":

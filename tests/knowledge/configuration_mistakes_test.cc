@@ -106,8 +106,8 @@ INSTANTIATE_TEST_SUITE_P(
                                      {"kind": "somewhere", "rate": -1}]}})",
              "classes.cup.models[1].rate", "[0, 1e+06]"},
         Case{R"("classes": {"cup": {"models": [{"kind": "constant_position"},
-                                     {"kind": "somewhere", "initial_weight": 1}]}})",
-             "classes.cup.models[1].initial_weight", "no such key"},
+                                     {"kind": "somewhere", "position_psd": 1}]}})",
+             "classes.cup.models[1].position_psd", "no such key"},
         Case{R"("classes": {"cup": {"models": [{"kind": "constant_position",
                                                 "initial_weight": 0}]}})",
              "classes.cup.models", "initial_weight"}));

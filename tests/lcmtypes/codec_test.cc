@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "lcmtypes/checked_decode.h"
+#include "tests/lcmtypes/random_frames.h"
 #include "tests/lcmtypes/sample_frames.h"
 
 namespace anchord {

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "anchoring/world.h"
+#include "api/answers.h"
+#include "core/frame.h"
+#include "daemon/statistics.h"
+#include "knowledge/frame_log.h"
+
+namespace anchord {
+
+/// What became of a submission.
+struct Receipt {
+  std::size_t accepted = 0;  ///< frames that were applied and are durable
+  std::size_t repeated = 0;  ///< frames that were in the log already
+};
+
+/// Frames that stand or fall together.
+struct Submission {
+  std::vector<Frame> frames;
+  std::string origin;  ///< an LCM channel, or HTTP; for messages
+  bool array = false;  ///< errors name the frame by its index
+  /// Called once, on the journal's thread: when the frames are durable and applied, or with the
+  /// refusal. May be empty.
+  std::function<void(Result<Receipt>)> done;
+};
+
+/// The one writer: folds submissions into the world, appends them to the frame log, commits in
+/// batches, and only then acknowledges. Its thread alone touches the world and the log; everyone
+/// else reads the immutable belief it publishes after each frame. If a batch cannot be made
+/// durable, its frames are refused and the belief goes back to the last durable one.
+class Journal {
+ public:
+  struct Hooks {
+    /// After each applied frame, on the journal's thread.
+    std::function<void(std::shared_ptr<const Belief>)> applied;
+    /// A refused frame (or the whole submission), on the journal's thread.
+    std::function<void(const Submission&, const Frame*, const Error&)> refused;
+    /// At least every half second while the journal lives.
+    std::function<void()> alive;
+  };
+  /// Frames are committed at most this long after they were applied.
+  static constexpr std::chrono::milliseconds kBatch{30};
+  /// Frames that may wait; more are refused.
+  static constexpr std::size_t kQueue = 4096;
+
+  Journal(World world, std::unique_ptr<FrameLog> log, Statistics& statistics, UpdateTimes& times,
+          Hooks hooks);
+  /// Finishes what has been submitted, commits, ends.
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// Folds the log; to be called once, before start(). Stops when `cancelled` turns true.
+  /// Fails if a logged frame cannot be read under this configuration.
+  Status restore(const std::atomic<bool>& cancelled);
+  void start();
+
+  /// Hands frames in, from any thread. False, and `done` not called, if too many wait.
+  bool submit(Submission submission);
+
+  /// What to answer from. Safe from any thread.
+  Snapshot snapshot() const;
+  std::int64_t logged_frames() const { return sequence_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Pending {
+    Submission submission;
+    Receipt receipt;
+  };
+  void run();
+  void take(Submission submission);
+  Result<Receipt> apply(const Submission& submission);
+  Result<bool> apply(const Frame& frame);
+  Status append(const Frame& frame);
+  void commit();
+  void roll_back(const Error& why);
+  void refuse(Submission& submission, const Error& why);
+  void publish();
+
+  World world_, durable_;
+  std::unique_ptr<FrameLog> log_;
+  Statistics& statistics_;
+  UpdateTimes& times_;
+  Hooks hooks_;
+  std::atomic<std::int64_t> sequence_{0};
+  std::int64_t durable_sequence_ = 0;
+  std::vector<Pending> pending_;
+  Clock::time_point batch_began_;
+  bool batch_open_ = false;
+  const Frame* refused_frame_ = nullptr;
+
+  std::atomic<std::shared_ptr<const Belief>> published_;
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Submission> queue_;
+  std::size_t waiting_ = 0;  ///< frames in the queue
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+}  // namespace anchord

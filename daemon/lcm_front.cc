@@ -1,0 +1,117 @@
+#include "daemon/lcm_front.h"
+
+#include <spdlog/spdlog.h>
+
+#include <anchord/answer_t.hpp>
+#include <anchord/rejected_t.hpp>
+#include <chrono>
+
+#include "api/world_message.h"
+#include "lcmtypes/channels.h"
+#include "lcmtypes/checked_decode.h"
+#include "lcmtypes/codec.h"
+
+namespace anchord {
+namespace {
+
+constexpr std::size_t kWorldsWaiting = 256, kQuestionsWaiting = 64;
+
+Utime now() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+LcmFront::LcmFront(std::unique_ptr<LcmBus> bus, Statistics& statistics)
+    : bus_(std::move(bus)),
+      statistics_(statistics),
+      publisher_(kWorldsWaiting),
+      questions_(kQuestionsWaiting) {}
+
+Status LcmFront::start(Journal& journal, Answerer answerer) {
+  if (Status s = bus_->subscribe(kDetectionsChannel,
+                                 [this, &journal](auto bytes) { receive_frame(bytes, journal); });
+      !s)
+    return s;
+  if (Status s = bus_->subscribe(
+          kQueryChannel,
+          [this, ask = std::move(answerer)](auto bytes) { receive_query(bytes, ask); });
+      !s)
+    return s;
+  bus_->start();
+  return Done{};
+}
+
+void LcmFront::stop() { bus_->stop(); }
+
+void LcmFront::receive_frame(std::span<const std::uint8_t> bytes, Journal& journal) {
+  ++statistics_.received_lcm;
+  auto message = decode_frame(bytes);
+  if (!message) {
+    ++statistics_.refused;
+    ++statistics_.refused_lcm;
+    publish_refusal(kDetectionsChannel, nullptr, message.error());
+    return;
+  }
+  statistics_.lost += gaps_.missing(message->frame.robot, message->frame.sensor, message->seq);
+  Submission submission{{std::move(message->frame)}, kDetectionsChannel, false, {}};
+  const Frame kept = submission.frames.front();
+  if (journal.submit(std::move(submission))) return;
+  ++statistics_.overrun;
+  publish_refusal(kDetectionsChannel, &kept,
+                  {ErrorCode::kUnavailable, "", "too many frames wait to be applied"});
+}
+
+void LcmFront::receive_query(std::span<const std::uint8_t> bytes, const Answerer& answerer) {
+  auto query = decode_query(bytes);
+  if (!query) {
+    publish_refusal(kQueryChannel, nullptr, query.error());
+    return;
+  }
+  const auto reply = [this](std::int64_t id, const HttpResponse& response) {
+    answer_t out{};
+    out.id = id;
+    out.status = response.status;
+    out.json = response.body;
+    send(kAnswerChannel, encode_message(out));
+  };
+  const std::int64_t id = query->id;
+  const bool taken = questions_.post([this, reply, answerer, asked = std::move(*query)] {
+    ++statistics_.queries;
+    const auto target = parse_target(asked.target);
+    reply(asked.id, target ? answerer(*target) : http_error(target.error()));
+  });
+  if (!taken) reply(id, http_error(503, "unavailable", "too many questions wait"));
+}
+
+void LcmFront::publish_world(std::shared_ptr<const Belief> belief,
+                             std::shared_ptr<const Background> background) {
+  const std::int64_t number = ++worlds_;  // a world that is left out shows as a gap
+  publisher_.post([this, number, belief = std::move(belief), background = std::move(background)] {
+    send(kWorldChannel, encode_world(*belief, *background, number));
+  });
+}
+
+void LcmFront::publish_refusal(const std::string& origin, const Frame* frame, const Error& why) {
+  rejected_t out{};
+  out.utime = now();
+  out.channel = origin;
+  if (frame) {
+    out.sensor = frame->sensor;
+    out.frame_utime = frame->utime;
+  }
+  out.field = why.field;
+  out.reason = why.message;
+  send(kRejectedChannel, encode_message(out));
+}
+
+void LcmFront::send(const char* channel, std::span<const std::uint8_t> bytes) {
+  if (Status sent = bus_->publish(channel, bytes); !sent)
+    spdlog::warn("{} could not be published: {}", channel, sent.error().text());
+  else
+    ++statistics_.published_lcm;
+}
+
+}  // namespace anchord

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "api/http_message.h"
+#include "api/lcm_bus.h"
+#include "daemon/journal.h"
+#include "daemon/statistics.h"
+#include "daemon/worker.h"
+
+namespace anchord {
+
+/// The daemon on LCM: frames and questions in, the best world, answers and refusals out.
+class LcmFront {
+ public:
+  /// What answers the target of a question; called on a thread of the front's own.
+  using Answerer = std::function<HttpResponse(const HttpTarget&)>;
+
+  /// Nothing is received before start(). `bus` must be open and not started.
+  LcmFront(std::unique_ptr<LcmBus> bus, Statistics& statistics);
+  LcmFront(const LcmFront&) = delete;
+  LcmFront& operator=(const LcmFront&) = delete;
+
+  Status start(Journal& journal, Answerer answerer);
+  /// Receives no more.
+  void stop();
+
+  /// Publishes the best world of a belief, on the front's own thread. Safe from any thread.
+  void publish_world(std::shared_ptr<const Belief> belief,
+                     std::shared_ptr<const Background> background);
+  /// Publishes a refusal on ANCHORD_REJECTED. `frame` is null if it could not be read.
+  void publish_refusal(const std::string& origin, const Frame* frame, const Error& why);
+
+  const std::string& url() const { return bus_->url(); }
+
+ private:
+  void receive_frame(std::span<const std::uint8_t> bytes, Journal& journal);
+  void receive_query(std::span<const std::uint8_t> bytes, const Answerer& answerer);
+  void send(const char* channel, std::span<const std::uint8_t> bytes);
+
+  std::unique_ptr<LcmBus> bus_;
+  Statistics& statistics_;
+  SequenceGaps gaps_;           // of the bus' thread
+  std::int64_t worlds_ = 0;     // of the publisher
+  Worker publisher_, questions_;  // end before the bus does
+};
+
+}  // namespace anchord

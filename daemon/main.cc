@@ -1,0 +1,84 @@
+// anchord: the daemon. Detections come in over LCM and HTTP, the belief goes out.
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <thread>
+
+#include "daemon/service.h"
+#include "knowledge/configuration.h"
+
+namespace {
+
+constexpr int kFailed = 1, kWrongCall = 2;
+
+int fail(const std::string& message) {
+  std::fprintf(stderr, "anchord: %s\n", message.c_str());
+  return kFailed;
+}
+
+/// Waits for SIGTERM or SIGINT, which every thread must have blocked.
+void await_end(const sigset_t& signals) {
+  int signal = 0;
+  sigwait(&signals, &signal);
+  spdlog::info("ends: {}", strsignal(signal));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"The semantic world model of a robot: detections in, beliefs out."};
+  std::string config = ANCHORD_CONFIG;
+  anchord::ServiceOptions options;
+  app.add_option("--config", config, "configuration of the world")->capture_default_str();
+  app.add_option("--data", options.data_directory, "directory of the frame log")
+      ->capture_default_str();
+  app.add_option("--lcm", options.lcm_url, "LCM URL; default: LCM's own with ttl 0");
+  app.add_option("--http", options.http_address, "ADDR:PORT to serve on")->capture_default_str();
+  app.set_version_flag("--version", ANCHORD_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongCall;
+  }
+  spdlog::set_default_logger(spdlog::stderr_color_mt("anchord"));
+
+  const auto configuration = anchord::read_configuration(config);
+  if (!configuration.ok()) {
+    for (const auto& mistake : configuration.mistakes())
+      std::fprintf(stderr, "%s: %s\n", config.c_str(), mistake.text().c_str());
+    return kWrongCall;
+  }
+
+  // Before any thread is started, so that all of them inherit it.
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+
+  auto service = anchord::Service::open(configuration.knowledge(), options);
+  if (!service) return fail(service.error().text());
+  std::atomic<bool> cancelled{false}, failed{false};
+  anchord::Status started = anchord::Done{};
+  std::thread starter([&] {
+    started = (*service)->start(cancelled);
+    if (!started) {
+      failed = true;
+      kill(getpid(), SIGTERM);
+    }
+  });
+  await_end(signals);
+  cancelled = true;
+  starter.join();
+  if (failed) return fail(started.error().text());
+  (*service)->stop();
+  return 0;
+}

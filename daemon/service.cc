@@ -1,0 +1,98 @@
+#include "daemon/service.h"
+
+#include <spdlog/spdlog.h>
+#include <systemd/sd-daemon.h>
+
+#include <chrono>
+
+namespace anchord {
+namespace {
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge,
+                                               const ServiceOptions& options) {
+  auto log = FrameLog::open(options.data_directory);
+  if (!log) return log.error();
+  auto bus = LcmBus::open(options.lcm_url);
+  if (!bus) return bus.error();
+  std::unique_ptr<Service> service(
+      new Service(std::move(knowledge), options, std::move(*log), std::move(*bus)));
+  auto http = HttpServer::start(
+      options.http_address,
+      http_routes(*service->journal_, service->ready_, service->statistics_, service->self()));
+  if (!http) return http.error();
+  service->http_ = std::move(*http);
+  return service;
+}
+
+Service::Service(Knowledge knowledge, const ServiceOptions& options, std::unique_ptr<FrameLog> log,
+                 std::unique_ptr<LcmBus> bus)
+    : options_(options), began_(seconds()) {
+  lcm_ = std::make_unique<LcmFront>(std::move(bus), statistics_);
+  World world(std::move(knowledge));
+  Journal::Hooks hooks;
+  hooks.applied = [this, background = world.background()](std::shared_ptr<const Belief> belief) {
+    lcm_->publish_world(std::move(belief), background);
+  };
+  hooks.refused = [this](const Submission& submission, const Frame* frame, const Error& why) {
+    if (submission.origin != "HTTP") ++statistics_.refused_lcm;
+    lcm_->publish_refusal(submission.origin, frame, why);
+  };
+  hooks.alive = [last = 0.0]() mutable {
+    if (seconds() - last < 0.5) return;
+    last = seconds();
+    sd_notify(0, "WATCHDOG=1");
+  };
+  journal_ = std::make_unique<Journal>(std::move(world), std::move(log), statistics_, times_,
+                                       std::move(hooks));
+}
+
+Service::~Service() { stop(); }
+
+Status Service::start(const std::atomic<bool>& cancelled) {
+  const double begin = seconds();
+  if (Status restored = journal_->restore(cancelled); !restored) return restored;
+  if (cancelled) return Done{};
+  if (journal_->logged_frames() > 0)
+    spdlog::info("restored the belief from {} frames in {:.1f} s", journal_->logged_frames(),
+                 seconds() - begin);
+  journal_->start();
+  ready_ = true;
+  const auto answerer = [this](const HttpTarget& target) {
+    return answer_get(target, *journal_, ready_, self());
+  };
+  if (Status received = lcm_->start(*journal_, answerer); !received) return received;
+  sd_notify(0, "READY=1");
+  spdlog::info("ready: http://{} and LCM {}", sources().http_address, lcm_->url());
+  return Done{};
+}
+
+void Service::stop() {
+  if (!journal_) return;
+  sd_notify(0, "STOPPING=1");
+  lcm_->stop();
+  ready_ = false;
+  if (http_) http_->stop(std::chrono::milliseconds(1000));
+  http_.reset();
+  journal_.reset();  // applies and commits what waits
+  lcm_.reset();
+}
+
+SelfDescription Service::self() {
+  return {[this] { return status_answer(sources()); }, [this] { return metrics_answer(sources()); }};
+}
+
+StatusSources Service::sources() const {
+  std::string address = options_.http_address;
+  if (http_) address = address.substr(0, address.rfind(':') + 1) + std::to_string(http_->port());
+  return {statistics_, times_,  *journal_, http_.get(),       options_.data_directory,
+          lcm_->url(), address, ready_,    seconds() - began_};
+}
+
+}  // namespace anchord

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "core/result.h"
+#include "daemon/http_front.h"
+#include "daemon/journal.h"
+#include "daemon/lcm_front.h"
+#include "daemon/status.h"
+
+namespace anchord {
+
+struct ServiceOptions {
+  std::string data_directory = "anchord-data";
+  std::string lcm_url;  ///< empty: LCM's own default with ttl 0
+  std::string http_address = "127.0.0.1:7780";
+};
+
+/// The daemon: owns the journal and its fronts, in the order in which they depend on each other.
+class Service {
+ public:
+  /// Takes the log, the port and the LCM network, or says what is in the way; nothing is served
+  /// or received yet but 503.
+  static Result<std::unique_ptr<Service>> open(Knowledge knowledge, const ServiceOptions& options);
+  ~Service();
+  Service(const Service&) = delete;
+  Service& operator=(const Service&) = delete;
+
+  /// Restores the belief from the log, then begins to receive. Tells systemd. `cancelled` may turn
+  /// true at any time.
+  Status start(const std::atomic<bool>& cancelled);
+
+  /// Receives no more, finishes what has begun, commits.
+  void stop();
+
+  std::uint16_t http_port() const { return http_->port(); }
+
+ private:
+  Service(Knowledge knowledge, const ServiceOptions& options, std::unique_ptr<FrameLog> log,
+          std::unique_ptr<LcmBus> bus);
+  SelfDescription self();
+  StatusSources sources() const;
+
+  ServiceOptions options_;
+  double began_;
+  std::atomic<bool> ready_{false};
+  Statistics statistics_;
+  UpdateTimes times_;
+  std::unique_ptr<LcmFront> lcm_;
+  std::unique_ptr<Journal> journal_;
+  std::unique_ptr<HttpServer> http_;
+};
+
+}  // namespace anchord

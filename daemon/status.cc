@@ -1,0 +1,124 @@
+#include "daemon/status.h"
+
+#include <filesystem>
+
+#include "api/belief_json.h"
+
+namespace anchord {
+namespace {
+
+struct BeliefSize {
+  std::size_t objects = 0, anchors = 0, hypotheses = 0;
+  double expected = 0;
+};
+
+BeliefSize size_of(const Belief& belief) {
+  BeliefSize size;
+  for (const auto& cluster : belief.clusters) {
+    size.anchors += cluster->anchors.size();
+    size.hypotheses += cluster->hypotheses.size();
+    for (int a = 0; a < static_cast<int>(cluster->anchors.size()); ++a) {
+      size.expected += cluster->existence(a);
+      const Leaf* best = cluster->best_leaf(a);
+      size.objects += best && best->existence >= 0.5 ? 1 : 0;
+    }
+  }
+  return size;
+}
+
+std::uintmax_t bytes_in(const std::string& directory) {
+  std::uintmax_t sum = 0;
+  std::error_code error;
+  for (const auto& file : std::filesystem::directory_iterator(directory, error)) {
+    const auto bytes = file.file_size(error);
+    if (!error) sum += bytes;
+  }
+  return sum;
+}
+
+/// Lines of Prometheus' text format.
+class Metrics {
+ public:
+  template <typename Number>
+  void add(const char* name, const char* type, const char* help, Number value) {
+    text_ += std::string("# HELP anchord_") + name + " " + help + "\n# TYPE anchord_" + name +
+             " " + type + "\nanchord_" + name + " " + Json(value).dump() + "\n";
+  }
+  std::string text() && { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
+HttpResponse status_answer(const StatusSources& from) {
+  const auto belief = from.journal.snapshot().belief;
+  const BeliefSize size = size_of(*belief);
+  const Statistics& s = from.statistics;
+  const auto times = from.times.summary();
+  Json out{{"version", ANCHORD_VERSION}, {"ready", from.ready},     {"utime", belief->utime},
+           {"uptime_s", from.uptime_s},  {"objects", size.objects}, {"anchors", size.anchors},
+           {"expected_count", size.expected}, {"hypotheses", size.hypotheses},
+           {"clusters", belief->clusters.size()}, {"dropped_probability", belief->dropped}};
+  out["frames"] = {{"accepted", s.accepted.load()}, {"repeated", s.repeated.load()},
+                   {"refused", s.refused.load()},   {"overrun", s.overrun.load()},
+                   {"late", s.late.load()},         {"lost", s.lost.load()}};
+  out["update_us"] = {{"median", times.median_us}, {"p99", times.p99_us}, {"max", times.max_us}};
+  out["log"] = {{"directory", from.data_directory},
+                {"frames", from.journal.logged_frames()},
+                {"bytes", bytes_in(from.data_directory)},
+                {"commits", s.commits.load()},
+                {"failures", s.commit_failures.load()}};
+  out["lcm"] = {{"url", from.lcm_url},
+                {"frames", s.received_lcm.load()},
+                {"refused", s.refused_lcm.load()},
+                {"published", s.published_lcm.load()}};
+  out["http"] = {{"address", from.http_address}};
+  if (from.http) {
+    const HttpCounters& http = from.http->counters();
+    out["http"]["connections"] = http.open.load();
+    out["http"]["requests"] = http.requests.load();
+    out["http"]["refused"] = http.refused.load();
+    out["http"]["timeouts"] = http.request_timeouts.load() + http.write_timeouts.load();
+  }
+  return {200, "application/json", out.dump() + "\n", {}};
+}
+
+HttpResponse metrics_answer(const StatusSources& from) {
+  const auto belief = from.journal.snapshot().belief;
+  const BeliefSize size = size_of(*belief);
+  const Statistics& s = from.statistics;
+  const auto times = from.times.summary();
+  Metrics out;
+  out.add("ready", "gauge", "1 once the belief is restored", from.ready ? 1 : 0);
+  out.add("frames_accepted_total", "counter", "frames applied and durable", s.accepted.load());
+  out.add("frames_repeated_total", "counter", "frames sent again", s.repeated.load());
+  out.add("frames_refused_total", "counter", "frames refused", s.refused.load());
+  out.add("frames_overrun_total", "counter", "frames dropped, too many waiting", s.overrun.load());
+  out.add("frames_late_total", "counter", "frames put in place behind newer ones", s.late.load());
+  out.add("frames_lost_total", "counter", "gaps in publishers' numbering", s.lost.load());
+  out.add("lcm_frames_received_total", "counter", "frames over LCM", s.received_lcm.load());
+  out.add("lcm_published_total", "counter", "messages sent over LCM", s.published_lcm.load());
+  out.add("log_commits_total", "counter", "batches made durable", s.commits.load());
+  out.add("log_failures_total", "counter", "batches that failed", s.commit_failures.load());
+  out.add("queries_total", "counter", "questions asked", s.queries.load());
+  out.add("update_seconds_sum", "counter", "time spent on updates", times.sum_s);
+  out.add("update_seconds_count", "counter", "updates", times.count);
+  out.add("update_p99_seconds", "gauge", "99 % of the latest updates took less",
+          times.p99_us * 1e-6);
+  out.add("objects", "gauge", "objects in the best world", size.objects);
+  out.add("anchors", "gauge", "anchors in any hypothesis", size.anchors);
+  out.add("expected_count", "gauge", "expected number of objects", size.expected);
+  out.add("hypotheses", "gauge", "hypotheses kept", size.hypotheses);
+  out.add("clusters", "gauge", "independent clusters", belief->clusters.size());
+  if (from.http) {
+    const HttpCounters& http = from.http->counters();
+    out.add("http_connections", "gauge", "open connections", http.open.load());
+    out.add("http_requests_total", "counter", "requests read whole", http.requests.load());
+    out.add("http_refused_total", "counter", "connections over the limit", http.refused.load());
+  }
+  return {200, "text/plain; version=0.0.4", std::move(out).text(), {}};
+}
+
+}  // namespace anchord

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "api/http_server.h"
+#include "daemon/journal.h"
+#include "daemon/statistics.h"
+
+namespace anchord {
+
+/// What status and metrics are told from.
+struct StatusSources {
+  const Statistics& statistics;
+  const UpdateTimes& times;
+  const Journal& journal;
+  const HttpServer* http;  ///< null while it does not listen yet
+  std::string data_directory, lcm_url, http_address;
+  bool ready;
+  double uptime_s;
+};
+
+/// GET /v1/status.
+HttpResponse status_answer(const StatusSources& sources);
+
+/// GET /metrics: Prometheus' text format 0.0.4.
+HttpResponse metrics_answer(const StatusSources& sources);
+
+}  // namespace anchord

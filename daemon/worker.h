@@ -1,0 +1,34 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace anchord {
+
+/// One thread that does tasks in the order in which they came, of which at most `capacity` wait.
+class Worker {
+ public:
+  explicit Worker(std::size_t capacity);
+  /// Does what waits, then ends.
+  ~Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  /// False if too many wait: the task is not done then. Safe from any thread.
+  bool post(std::function<void()> task);
+
+ private:
+  void run();
+
+  std::size_t capacity_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::function<void()>> tasks_;
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+}  // namespace anchord

@@ -1,0 +1,89 @@
+// Writes the seed corpora of the fuzz targets, encoded for real: fuzz_seeds CORPUS_DIRECTORY
+
+#include <anchord/query_t.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "api/frame_json.h"
+#include "api/lcm_log.h"
+#include "lcmtypes/codec.h"
+#include "tests/lcmtypes/sample_frames.h"
+
+namespace anchord {
+namespace {
+
+/// Small frames that between them use every field.
+std::vector<std::pair<std::string, Frame>> frames() {
+  const Frame full = testing::full_frame();
+  Frame empty;
+  empty.utime = full.utime;
+  empty.sensor = "s";
+  Frame posed = full;
+  posed.detections.clear();
+  posed.view.reset();
+  Frame detected = full;
+  detected.pose.reset();
+  detected.view->type = View::Type::kPolygon;
+  detected.view->points = {{0, 0}, {2, 0}, {0, 2}};
+  Frame frustum = empty;
+  frustum.view = View{};
+  frustum.view->type = View::Type::kFrustum;
+  frustum.view->range = {0.5, 4};
+  frustum.view->hfov = 1;
+  frustum.view->vfov = 0.75;
+  return {{"empty", empty}, {"posed", posed}, {"detected", detected}, {"frustum", frustum}};
+}
+
+template <typename Bytes>
+void write(const std::filesystem::path& path, const Bytes& bytes) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream stream(path, std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  if (!stream) throw std::runtime_error("cannot write " + path.string());
+}
+
+void write_all(const std::filesystem::path& root) {
+  nlohmann::json array = nlohmann::json::array();
+  std::ostringstream log;
+  LcmLogWriter writer(log);
+  for (const auto& [name, frame] : frames()) {
+    write(root / "frame_lcm" / name, encode(frame, 1));
+    write(root / "frame_json" / name, to_json(frame).dump());
+    if (name == "posed") continue;  // 36 numbers once are enough
+    array.push_back(to_json(frame));
+    if (!writer.write_frame(frame)) throw std::runtime_error("cannot write a log");
+    if (!writer.write("OTHER", 1, {})) throw std::runtime_error("cannot write a log");
+  }
+  write(root / "frame_json" / "array", array.dump());
+  write(root / "lcm_log" / "frames", log.str());
+  for (const std::string target : {"/v1/status", "/v1/where?class=cup&color=blue"}) {
+    query_t query{};
+    query.id = 1;
+    query.target = target;
+    write(root / "query_lcm" / std::to_string(target.size()), encode_message(query));
+  }
+}
+
+}  // namespace
+}  // namespace anchord
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: fuzz_seeds CORPUS_DIRECTORY\n");
+    return 2;
+  }
+  try {
+    anchord::write_all(argv[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "fuzz_seeds: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

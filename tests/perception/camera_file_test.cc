@@ -1,0 +1,77 @@
+#include "perception/camera_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "knowledge/configuration.h"
+#include "plaza.h"
+
+namespace anchord {
+namespace {
+
+std::vector<std::string> mistakes_of(const std::string& text) {
+  ConfigurationMistakes mistakes;
+  EXPECT_FALSE(parse_camera_file(text, "", mistakes));
+  std::vector<std::string> paths;
+  for (const auto& mistake : mistakes) paths.push_back(mistake.path);
+  return paths;
+}
+
+bool among(const std::vector<std::string>& paths, const std::string& path) {
+  return std::find(paths.begin(), paths.end(), path) != paths.end();
+}
+
+TEST(CameraFile, ThePlazasIsRead) {
+  ConfigurationMistakes mistakes;
+  const auto settings = read_camera_file(project_file("config/plaza.camera.json"), mistakes);
+  ASSERT_TRUE(settings) << (mistakes.empty() ? "" : mistakes[0].text());
+  EXPECT_EQ(settings->camera.width, 768);
+  EXPECT_EQ(settings->view.size(), 4U);
+  EXPECT_EQ(settings->occluders.size(), 2U);
+}
+
+TEST(CameraFile, TheDaemonKnowsItsColors) {
+  const Configuration configuration = read_configuration(project_file("config/plaza.json"));
+  ASSERT_TRUE(configuration.ok()) << configuration.mistakes()[0].text();
+  const Knowledge& knowledge = configuration.knowledge();
+  const int color = knowledge.find_attribute("color");
+  ASSERT_GE(color, 0);
+  for (const NamedColor& named : plaza_settings().clothes.colors) {
+    EXPECT_GE(knowledge.attributes[static_cast<std::size_t>(color)].find(named.name), 0)
+        << named.name;
+  }
+  EXPECT_GE(knowledge.find_class("person"), 0);
+}
+
+TEST(CameraFile, NamesAllThatIsMissing) {
+  const auto paths = mistakes_of("{}");
+  EXPECT_TRUE(among(paths, "camera"));
+  EXPECT_TRUE(among(paths, "view"));
+  EXPECT_TRUE(among(paths, "colors"));
+}
+
+TEST(CameraFile, NamesEveryMistake) {
+  const auto paths = mistakes_of(R"({
+    "camera": {"image": [768, 576], "focal": -1, "kappa1": 0, "center": [0, 0], "sx": 1,
+               "pixel": [0.005, 0], "rotation": [0, 0], "translation": [0, 0, 1], "zoom": 2},
+    "view": [[0, 0], [1, 1]],
+    "people": {"least_gain": "much"},
+    "colors": [{"name": "red", "value": [0, 2]}]})");
+  for (const char* path : {"camera.focal", "camera.zoom", "view", "people.least_gain"}) {
+    EXPECT_TRUE(among(paths, path)) << path;
+  }
+  for (const char* start : {"camera.pixel", "camera.rotation", "colors[0].value"}) {
+    EXPECT_TRUE(std::any_of(paths.begin(), paths.end(),
+                            [&](const std::string& path) { return path.starts_with(start); }))
+        << start;
+  }
+}
+
+TEST(CameraFile, RefusesWhatIsNoJson) {
+  EXPECT_FALSE(mistakes_of("{").empty());
+  EXPECT_FALSE(mistakes_of("[]").empty());
+}
+
+}  // namespace
+}  // namespace anchord

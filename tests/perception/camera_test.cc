@@ -1,0 +1,81 @@
+#include "perception/camera.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include "plaza.h"
+
+namespace anchord {
+namespace {
+
+Camera plaza_camera() { return Camera(plaza_settings().camera); }
+
+struct CheckPoint {
+  Eigen::Vector3d p_map;
+  Eigen::Vector2d pixel;
+};
+
+// Computed with an independent program from the published calibration, to 1e-3 pixels.
+const CheckPoint kCheckPoints[] = {{{0, 0, 0}, {351.872, 175.76}},
+                                   {{5, -5, 0}, {574.071, 157.03}},
+                                   {{-10, 3, 0}, {31.265, 245.349}},
+                                   {{-5, -12, 0}, {691.516, 263.11}}};
+
+TEST(Camera, ProjectsTheCheckPoints) {
+  const Camera camera = plaza_camera();
+  for (const CheckPoint& check : kCheckPoints) {
+    EXPECT_LT((camera.project(check.p_map) - check.pixel).norm(), 1.5e-3);  // rounded to 1e-3
+  }
+}
+
+TEST(Camera, PutsTheCheckPointsOnTheGround) {
+  const Camera camera = plaza_camera();
+  for (const CheckPoint& check : kCheckPoints) {
+    const auto ground = camera.to_ground(check.pixel);
+    ASSERT_TRUE(ground);
+    // Pixels rounded to 1e-3, and at most 0.15 m of ground per pixel there.
+    EXPECT_LT((ground->position - check.p_map.head<2>()).norm(), 3e-4);
+  }
+}
+
+RC_GTEST_PROP(Camera, GroundAndPictureAreInverse, ()) {
+  const Camera camera = plaza_camera();
+  const Eigen::Vector2d pixel(*rc::gen::inRange(0, 768), *rc::gen::inRange(110, 576));
+  const auto ground = camera.to_ground(pixel);
+  RC_ASSERT(ground.has_value());
+  const Eigen::Vector2d back =
+      camera.project({ground->position.x(), ground->position.y(), 0});
+  RC_ASSERT((back - pixel).norm() < 1e-9);  // rounding in numbers of some hundreds
+}
+
+RC_GTEST_PROP(Camera, JacobianIsTheDerivative, ()) {
+  const Camera camera = plaza_camera();
+  const Eigen::Vector2d pixel(*rc::gen::inRange(0, 768), *rc::gen::inRange(110, 576));
+  const auto ground = camera.to_ground(pixel);
+  const double h = 1e-3;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(axis);
+    const Eigen::Vector2d slope =
+        (camera.to_ground(pixel + step)->position - camera.to_ground(pixel - step)->position) /
+        (2 * h);
+    // Central differences: an error of h^2 times third derivatives, which are below 1e-3 here.
+    RC_ASSERT((slope - ground->jacobian.col(axis)).norm() < 1e-8);
+  }
+}
+
+TEST(Camera, SeesNoGroundAboveTheHorizon) {
+  // The camera looks down by some 16 degrees: its horizon lies above the picture.
+  EXPECT_FALSE(plaza_camera().to_ground({384, -400}).has_value());
+}
+
+TEST(Camera, SeesPeopleUpright) {
+  const Camera camera = plaza_camera();
+  const Eigen::Vector2d foot = camera.project({-10, -8, 0});
+  const Eigen::Vector2d head = camera.project({-10, -8, 1.74});
+  EXPECT_LT(head.y(), foot.y() - 60);  // people in this video are 60 to 150 pixels tall
+  EXPECT_LT(std::abs(head.x() - foot.x()), 10);
+}
+
+}  // namespace
+}  // namespace anchord

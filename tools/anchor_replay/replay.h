@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <unordered_map>
+
+#include "anchoring/world.h"
+#include "api/world_line.h"
+#include "tools/anchor_replay/frame_source.h"
+
+namespace anchord {
+
+/// Seconds, of a clock that only goes forward.
+using Stopwatch = std::function<double()>;
+
+struct ReplayOptions {
+  WorldLineOptions line;
+  bool timing = true;  ///< write `elapsed_us`
+};
+
+/// What a replay did, for STATS.json.
+struct ReplayStatistics {
+  std::size_t frames = 0, detections = 0;
+  std::vector<double> update_ms;  ///< per applied frame
+  std::size_t objects = 0;        ///< in the last best world
+
+  /// {"frames", "detections", "update_ms": {"mean", "median", "p99", "max"}, "peak_rss_mb",
+  /// "objects"}
+  Json json() const;
+};
+
+/// Folds all frames of a source and writes a line after each that was applied. A frame sent again
+/// is passed over. Stops at a refused frame with its position.
+Result<ReplayStatistics> replay(World& world, FrameSource& source, std::ostream* output,
+                                const ReplayOptions& options, const Stopwatch& stopwatch);
+
+}  // namespace anchord

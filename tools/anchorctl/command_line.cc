@@ -1,0 +1,109 @@
+#include "tools/anchorctl/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tools/anchorctl/query.h"
+
+namespace anchord {
+namespace {
+
+constexpr const char* kDefaultServer = "127.0.0.1:7780";
+
+constexpr const char* kWords =
+    " [OBJECT|CLASS] [KEY=VALUE]... [--KEY VALUE]...\n"
+    "An object (cup-12) or a class (cup), and what else it is like: color=blue size=small,\n"
+    "--place kitchen. Keys and values become parameters of the question to the daemon.\n";
+
+struct Given {
+  std::string server;
+  bool json = false;
+  std::optional<unsigned> limit;
+  double interval_s = 0.5;
+  std::optional<double> for_s;
+};
+
+void add_common(CLI::App& app, Given& given) {
+  app.add_option(
+      "--server", given.server,
+      "ADDR:PORT of the daemon; default: ANCHORD_SERVER, else " + std::string(kDefaultServer));
+  app.add_flag("--json", given.json, "print the daemon's JSON as it came");
+}
+
+CLI::App& add_command(CLI::App& app, const char* name, const char* what, Given& given) {
+  CLI::App& command = *app.add_subcommand(name, what);
+  command.allow_extras()->footer("anchorctl " + std::string(name) + kWords);
+  add_common(command, given);
+  return command;
+}
+
+int wrong(const std::string& what) {
+  std::fprintf(stderr, "anchorctl: %s (anchorctl --help tells more)\n", what.c_str());
+  return kWrongCall;
+}
+
+std::variant<Call, int> to_call(const std::string& command, const Given& given,
+                                const std::vector<std::string>& words) {
+  auto parameters = parse_words(words);
+  if (!parameters) return wrong(parameters.error().text());
+  if (given.limit) {
+    if (find_parameter(*parameters, "limit")) return wrong("limit: is given twice");
+    parameters->emplace_back("limit", std::to_string(*given.limit));
+  }
+  if (command == "status" && !parameters->empty()) {
+    return wrong(parameters->front().first + ": status takes no parameters");
+  }
+  if (command == "watch" && !find_parameter(*parameters, "min_p")) {
+    parameters->emplace_back("min_p", "0.5");
+  }
+  if (command == "watch" && find_parameter(*parameters, "object")) {
+    return wrong("object: watch takes a class, a place or other attributes");
+  }
+
+  std::string address = given.server;
+  const char* variable = std::getenv("ANCHORD_SERVER");
+  if (address.empty()) address = variable && *variable ? variable : kDefaultServer;
+  auto server = parse_server(address);
+  if (!server) return wrong(server.error().text());
+
+  const std::string resource = command == "watch" ? "objects" : command;
+  return Call{command,    *std::move(server), make_target(resource, *std::move(parameters)),
+              given.json, given.interval_s,   given.for_s};
+}
+
+}  // namespace
+
+std::variant<Call, int> parse_command_line(int argc, const char* const* argv) {
+  CLI::App app{"Asks anchord what it believes.", "anchorctl"};
+  app.footer("For example: anchorctl where cup color=blue size=small\n");
+  Given given;
+  add_common(app, given);
+  app.require_subcommand(1);
+  add_command(app, "where", "who may be meant, and where it is", given);
+  add_command(app, "objects", "every object that fits, or one with its models and alternatives",
+              given);
+  add_command(app, "count", "how many there are, as a distribution", given);
+  add_command(app, "hypotheses", "the most probable worlds, and in what they differ", given)
+      .add_option("--limit", given.limit, "that many worlds")
+      ->check(CLI::Range(1u, 1'000'000u));
+  CLI::App& watching =
+      add_command(app, "watch", "shows the objects as they change; Ctrl-C ends it", given);
+  watching.add_option("--interval", given.interval_s, "seconds from one look to the next")
+      ->check(CLI::Range(0.05, 3600.0))
+      ->capture_default_str();
+  watching.add_option("--for", given.for_s, "stop after so many seconds")
+      ->check(CLI::Range(0.0, 1e9));
+  add_command(app, "status", "how the daemon is", given).footer("");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return wrong(error.what());
+  }
+  const CLI::App& command = *app.get_subcommands().front();
+  return to_call(command.get_name(), given, command.remaining());
+}
+
+}  // namespace anchord

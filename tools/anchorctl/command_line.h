@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "tools/anchorctl/http_client.h"
+
+namespace anchord {
+
+/// Exit statuses beside 0.
+inline constexpr int kFailed = 1, kWrongCall = 2;
+
+/// One call of the program.
+struct Call {
+  std::string command;  ///< where, objects, count, hypotheses, watch, status
+  ServerAddress server;
+  std::string target;  ///< what is asked of the daemon
+  bool json = false;   ///< its answer as it came
+  double interval_s = 0.5;
+  std::optional<double> for_s;
+};
+
+/// Reads the arguments, and ANCHORD_SERVER for a missing --server. If there is nothing to do, the
+/// exit status: 0 after help, kWrongCall after one line on standard error about what is wrong.
+std::variant<Call, int> parse_command_line(int argc, const char* const* argv);
+
+}  // namespace anchord
