@@ -41,8 +41,12 @@ Tied tie(const std::vector<PredictedCluster>& clusters, const Limits& limits) {
 AssociationProblem problem_of(const Tied& tied, const std::vector<int>& detections) {
   AssociationProblem problem;
   problem.detections = static_cast<int>(detections.size());
-  for (const PredictedLeaf* leaf : tied.leaves)
-    for (int z : detections) problem.gain.push_back(leaf->gain[z]);
+  problem.gain.assign(tied.leaves.size() * detections.size(), kLogZero);
+  for (std::size_t l = 0; l < tied.leaves.size(); ++l)
+    for (const auto& [z, log_gain] : tied.leaves[l]->gains) {
+      const auto at = std::lower_bound(detections.begin(), detections.end(), z);
+      problem.gain[l * detections.size() + (at - detections.begin())] = log_gain;
+    }
   for (const Hypothesis& h : tied.hypotheses) {
     AssociationProblem::Parent parent{h.log_weight, {}};
     for (std::size_t a = 0; a < h.leaf.size(); ++a) {

@@ -15,8 +15,13 @@ struct PredictedLeaf {
   Leaf leaf;
   LeafVisibility shown;
   double log_miss = 0;                   ///< ln(1 - r q)
-  std::vector<double> gain;              ///< per detection of the frame: ln of giving it z, over
-                                         ///< giving it nothing and z being new or clutter
+  /// What it is worth to give the leaf a detection: ln of that, over giving it nothing and the
+  /// detection being new or clutter. Only detections that it may be given, ascending.
+  struct Gain {
+    int detection;
+    double log_gain;
+  };
+  boost::container::small_vector<Gain, 4> gains;
 };
 
 /// A cluster as one frame finds it.

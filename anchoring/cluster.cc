@@ -11,9 +11,9 @@ namespace {
 /// Leaves whose means lie within this many standard deviations of each other are alike. A mixture
 /// of two unit normals 0.5 apart differs from its moments' normal by a total variation of 0.001.
 constexpr double kAlikeDistance = 0.5;
-/// Total variation that splitting a cluster may cost where hypotheses are bounded anyway, and the
-/// rounding it forgives where they are not.
-constexpr double kSplitLoss = 1e-4, kSplitRounding = 1e-13;
+/// What splitting a cluster may cost where hypotheses are bounded anyway, and the rounding it
+/// forgives where they are not.
+const Independence kSplitLoss{getenv("SP")?atof(getenv("SP")):1e-4, getenv("SW")?atof(getenv("SW")):1e-4}, kSplitRounding{1e-13, 1e-13};
 
 /// What of a hypothesis the last scans tell: which anchor was given which detections.
 std::vector<std::uint64_t> recent_history(const Cluster& cluster, const Hypothesis& h) {
@@ -105,10 +105,10 @@ std::vector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
                                                   const Background& background) {
   const Limits& limits = background.knowledge.limits;
   // Rounding alone where nothing is pruned, else what pruning loses anyway.
-  const double tolerance =
+  const Independence& allowed =
       limits.min_weight > 0 || limits.max_hypotheses > 0 ? kSplitLoss : kSplitRounding;
   std::vector<std::shared_ptr<const Cluster>> parts;
-  for (const auto& group : factors(cluster.hypotheses, tolerance)) {
+  for (const auto& group : factors(cluster.hypotheses, allowed)) {
     auto part = std::make_shared<Cluster>();
     HypothesisSet hypotheses = marginal(cluster.hypotheses, group);
     std::vector<int> used;

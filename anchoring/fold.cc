@@ -82,12 +82,12 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
       predicted.log_miss = std::log1p(-predicted.leaf.existence * predicted.shown.q());
       out.shown = out.shown || predicted.shown.q() > 0;
       out.stepped = out.stepped || background.dynamics[leaf->model_class].exchanges;
-      predicted.gain.reserve(frame.detections.size());
       for (std::size_t z = 0; z < frame.detections.size(); ++z) {
-        predicted.gain.push_back(log_gain(predicted, *cluster->anchors[a].anchor,
-                                          frame.detections[z], origins[z], *frame.sensor,
-                                          background));
-        if (predicted.gain.back() > kLogZero) out.gated[z] = 1;
+        const double gain = log_gain(predicted, *cluster->anchors[a].anchor, frame.detections[z],
+                                     origins[z], *frame.sensor, background);
+        if (gain == kLogZero) continue;
+        predicted.gains.push_back({static_cast<int>(z), gain});
+        out.gated[z] = 1;
       }
     }
   out.cluster = std::move(cluster);

@@ -149,6 +149,10 @@ bool in_gate(const Leaf& leaf, const MapDetection& z, const Background& backgrou
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     if (!models[m].detectable || leaf.models[m].weight <= 1 - gate) continue;
     if (const auto* kinematic = std::get_if<Kinematic>(&leaf.models[m].density)) {
+      // The squared distance over the trace of S is at most Mahalanobis': most end here.
+      const double trace = kinematic->pp.trace() + z.position.covariance.trace();
+      if ((z.position.mean - kinematic->position).squaredNorm() > background.gate_distance2 * trace)
+        continue;
       if (fit(*kinematic, z.position, background.dims).distance2 <= background.gate_distance2)
         return true;
     } else if (mass(z.position, std::get<Somewhere>(leaf.models[m].density).footprint()->region,

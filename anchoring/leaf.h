@@ -39,7 +39,7 @@ struct Leaf {
   Utime utime = 0;
   Utime last_seen = 0;
   /// Which detections it was given in the last scans, as frame number << 16 | detection, ascending.
-  boost::container::small_vector<std::uint64_t, 4> recent;
+  boost::container::small_vector<std::uint64_t, 20> recent;
 
   /// The most probable class; ties go to the first.
   int top_class() const;

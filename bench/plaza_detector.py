@@ -119,8 +119,9 @@ def fit_score(rows, y, frame, middle):
 def fit_noise(rows, partners, projector):
     pairs = [(r, t) for r, t in zip(rows, partners) if t]
     height = np.array([float(r["height_px"]) for r, _ in pairs])
-    error = np.array([projector(float(t["x"]), float(t["y"])) - [float(r["foot_u"]), float(r["foot_v"])]
-                      for r, t in pairs]) / height[:, None]
+    error = np.array([projector(float(t["x"]), float(t["y"])) -
+                      [float(r["foot_u"]), float(r["foot_v"])] for r, t in pairs])
+    error /= height[:, None]
     offset = np.median(error, axis=0)
     x = np.array([[1, 1 - float(r["alone"]), max(0, 1 - float(r["gain"]))] for r, _ in pairs])
     print("noise foot_offset", offset.round(4), "of the body's height")
@@ -128,7 +129,8 @@ def fit_noise(rows, partners, projector):
         e2, w = (error[:, axis] - offset[axis]) ** 2, np.array([-3.0, 0, 0])
         for _ in range(200):  # Newton on the likelihood of normal errors with log-linear deviation
             ratio = e2 * np.exp(-2 * x @ w)
-            w += np.linalg.solve(2 * x.T @ (x * ratio[:, None]) + 1e-6 * np.eye(3), x.T @ (ratio - 1))
+            hessian = 2 * x.T @ (x * ratio[:, None]) + 1e-6 * np.eye(3)
+            w += np.linalg.solve(hessian, x.T @ (ratio - 1))
         print("noise", name, dict(zip(("base", "covered", "weak"), w.round(2))))
 
 
@@ -182,9 +184,10 @@ def main():
         partners += pairs
         missed += len(misses)
     y = np.array([t is not None for t in partners], float)
-    error = np.array([[float(t[a]) - float(r[a]) for a in "xy"] for r, t in zip(rows, partners) if t])
-    covariance = np.array([[[float(r["cxx"]), float(r["cxy"])], [float(r["cxy"]), float(r["cyy"])]]
-                           for r, t in zip(rows, partners) if t])
+    found = [(r, t) for r, t in zip(rows, partners) if t]
+    error = np.array([[float(t[a]) - float(r[a]) for a in "xy"] for r, t in found])
+    covariance = np.array([[float(r[c]) for c in ("cxx", "cxy", "cxy", "cyy")]
+                           for r, _ in found]).reshape(-1, 2, 2)
     nees = np.einsum("ni,nij,nj->n", error, np.linalg.inv(covariance), error)
     score = np.array([float(r["score"]) for r in rows])
     print("recall %.3f  precision %.3f  false per frame %.3f  (%d detections, %d frames)" % (
@@ -193,10 +196,12 @@ def main():
           "(1.39)" % (np.median(np.hypot(*error.T)), np.mean(np.hypot(*error.T)), nees.mean(),
                       np.median(nees)))
     print("score: log-loss %.4f; paired where score is" % log_loss(score, y), end="")
-    for low, high in ((0, 0.1), (0.1, 0.3), (0.3, 0.5), (0.5, 0.7), (0.7, 0.9), (0.9, 0.98), (0.98, 1.01)):
+    bounds = (0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98, 1.01)
+    for low, high in zip(bounds, bounds[1:]):
         inside = (score >= low) & (score < high)
         if inside.any():
-            print("  %.2f: %.2f (%d)" % (score[inside].mean(), y[inside].mean(), inside.sum()), end="")
+            print("  %.2f: %.2f (%d)" % (score[inside].mean(), y[inside].mean(), inside.sum()),
+                  end="")
     print("\nat score >= 0.5: recall %.3f, false per frame %.3f" % (
         y[score >= 0.5].sum() / (y.sum() + missed), (1 - y[score >= 0.5]).sum() / len(truth)))
     if args.fit:

@@ -39,7 +39,7 @@ fuzz_target() {
     sed -n 's/.*Test unit written to \(.*\)/  again: '"${program//\//\\/}"' \1/p' "$log"
     return
   fi
-  "$program" -merge=1 "$corpus" "$grown" >>"$log" 2>&1
+  "$program" -set_cover_merge=1 -use_counters=0 "$corpus" "$grown" >>"$log" 2>&1
   local tried
   tried=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | head -n 1)
   echo "$name: $tried inputs tried, $(find "$corpus" -type f | wc -l) in the corpus"

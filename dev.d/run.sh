@@ -38,7 +38,7 @@ command_run() {
   fi
   say "the daemon goes on serving:"
   echo "    look:  http://127.0.0.1:$port/v1/objects   http://127.0.0.1:$port/v1/status"
-  echo "    ask:   build/anchorctl --http 127.0.0.1:$port where --class person"
+  echo "    ask:   build/anchorctl --server 127.0.0.1:$port where --class person"
   echo "    feed:  LCM channel ANCHORD_DETECTIONS at $url"
   echo "    stop:  Ctrl-C"
   wait "$daemon"
@@ -48,7 +48,7 @@ daemon='' watcher=''
 
 start_daemon() {
   local port=$1 url=$2 data=$3
-  ctl=(build/anchorctl --http "127.0.0.1:$port")
+  ctl=(build/anchorctl --server "127.0.0.1:$port")
   local command=(build/anchord --config "$RUN_CONFIG" --data "$data" --lcm "$url"
     --http "127.0.0.1:$port")
   say "starting the daemon: ${command[*]}"

@@ -61,6 +61,10 @@ void write_all(const std::filesystem::path& root) {
     if (!writer.write_frame(frame)) throw std::runtime_error("cannot write a log");
     if (!writer.write("OTHER", 1, {})) throw std::runtime_error("cannot write a log");
   }
+  Frame repeated = testing::full_frame();  // refused: an attribute is there twice
+  repeated.detections.resize(1);
+  repeated.detections[0].attributes[1].name = repeated.detections[0].attributes[0].name;
+  write(root / "frame_lcm" / "repeated", encode(repeated, 1));
   write(root / "frame_json" / "array", array.dump());
   write(root / "lcm_log" / "frames", log.str());
   for (const std::string target : {"/v1/status", "/v1/where?class=cup&color=blue"}) {

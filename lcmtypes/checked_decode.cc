@@ -120,7 +120,8 @@ Result<FrameMessage> decode_frame(std::span<const std::uint8_t> bytes) {
   if (!checked) return checked.error();
   frame_t message;
   if (!decode(bytes, message)) return disagreement();
-  const Field detections = Field().member("detections");
+  const Field root;
+  const Field detections = root.member("detections");
   for (std::size_t i = 0; i < message.detections.size(); ++i) {
     const Status unique = check_repeats(message.detections[i], detections.element(i));
     if (!unique) return unique.error();

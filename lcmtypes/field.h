@@ -13,8 +13,11 @@ class Field {
   /// The message itself.
   Field() = default;
 
-  Field member(std::string_view name) const { return {this, name, 0}; }
-  Field element(std::size_t index) const { return {this, {}, index}; }
+  Field member(std::string_view name) const& { return {this, name, 0}; }
+  Field element(std::size_t index) const& { return {this, {}, index}; }
+  // A temporary would be gone before its child is.
+  Field member(std::string_view name) && = delete;
+  Field element(std::size_t index) && = delete;
 
   std::string text() const {
     if (!parent_) return {};

@@ -89,7 +89,7 @@ std::vector<Variable> variables(const HypothesisSet& set, const std::vector<doub
 
 }  // namespace
 
-std::vector<std::vector<int>> factors(const HypothesisSet& set, double tolerance) {
+std::vector<std::vector<int>> factors(const HypothesisSet& set, const Independence& allowed) {
   const std::size_t anchors = set.empty() ? 0 : set[0].leaf.size();
   if (anchors == 0) return {};
   std::vector<double> weight;
@@ -99,7 +99,7 @@ std::vector<std::vector<int>> factors(const HypothesisSet& set, double tolerance
   while (true) {
     const auto members = groups.all();
     const auto now = variables(set, weight, members);
-    if (loss(now, weight) <= tolerance) return members;
+    if (loss(now, weight) <= allowed.whole) return members;
     // Pairs first. What only depends in larger groups shows in the loss alone, and is joined by
     // the strongest dependence that is left, or, where no pair shows any, all at once.
     double strongest = 0;
@@ -107,9 +107,9 @@ std::vector<std::vector<int>> factors(const HypothesisSet& set, double tolerance
     bool joined = false;
     for (std::size_t i = 0; i < now.size(); ++i)
       for (std::size_t j = i + 1; j < now.size(); ++j) {
-        if (std::min(now[i].minor, now[j].minor) * 2 <= tolerance / anchors) continue;
+        if (std::min(now[i].minor, now[j].minor) * 2 <= allowed.pair / anchors) continue;
         const double d = dependence(now[i], now[j], weight);
-        if (d > tolerance) {
+        if (d > allowed.pair) {
           groups.unite(members[i][0], members[j][0]);
           joined = true;
         } else if (d > strongest) {

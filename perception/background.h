@@ -13,11 +13,11 @@ namespace anchord {
 class Background {
  public:
   struct Settings {
-    double darkest = 0.75;      ///< least factor by which a shadow darkens
-    double brightest = 1.15;    ///< largest factor of a change of light
-    double threshold = 14;      ///< difference, grey levels, at which a pixel is as likely either
-    double width = 5;           ///< of the soft step around it, grey levels
-    double rate = 0.01;         ///< share of a new frame in the background
+    double darkest = 0.75;    ///< least factor by which a shadow darkens
+    double brightest = 1.15;  ///< largest factor of a change of light
+    double threshold = 14;    ///< difference, grey levels, at which a pixel is as likely either
+    double width = 5;         ///< of the soft step around it, grey levels
+    double rate = 0.01;       ///< share of a new frame in the background
   };
 
   /// The median of some frames, all 8-bit BGR of one size, at least one. With people who stand

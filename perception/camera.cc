@@ -45,9 +45,9 @@ std::optional<GroundPoint> Camera::to_ground(const Eigen::Vector2d& pixel) const
   const Eigen::DiagonalMatrix<double, 2> scale(c.dpx / c.sx, c.dpy);
   const Eigen::Vector2d distorted = scale * (pixel - Eigen::Vector2d(c.cx, c.cy));
   const double stretch = 1 + c.kappa1 * distorted.squaredNorm();
-  const Eigen::Matrix2d d_ideal = (stretch * Eigen::Matrix2d::Identity() +
-                                   2 * c.kappa1 * distorted * distorted.transpose()) *
-                                  scale;
+  const Eigen::Matrix2d d_ideal =
+      (stretch * Eigen::Matrix2d::Identity() + 2 * c.kappa1 * distorted * distorted.transpose()) *
+      scale;
   Eigen::Vector3d ray_camera;
   ray_camera << stretch * distorted, c.focal;
   const Eigen::Vector3d ray = rotation_.transpose() * ray_camera;

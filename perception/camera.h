@@ -10,12 +10,12 @@ namespace anchord {
 /// one radial coefficient. World in metres (translation too), sensor in millimetres, pixels
 /// counted from the centre of the upper left one, v down.
 struct CameraParameters {
-  int width = 0, height = 0;   ///< of the picture, pixels
-  double focal = 0;            ///< mm
-  double kappa1 = 0;           ///< 1/mm^2, from distorted to ideal
-  double cx = 0, cy = 0;       ///< pixel of the optical axis
-  double sx = 1;               ///< scale of the horizontal scan
-  double dpx = 0, dpy = 0;     ///< mm per pixel
+  int width = 0, height = 0;                              ///< of the picture, pixels
+  double focal = 0;                                       ///< mm
+  double kappa1 = 0;                                      ///< 1/mm^2, from distorted to ideal
+  double cx = 0, cy = 0;                                  ///< pixel of the optical axis
+  double sx = 1;                                          ///< scale of the horizontal scan
+  double dpx = 0, dpy = 0;                                ///< mm per pixel
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< rx, ry, rz; R = Rz(rz) Ry(ry) Rx(rx)
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< m; p_camera = R p_map + translation
 };

@@ -37,8 +37,8 @@ double needed_number(const JsonValue& in, const char* key, const Range& range) {
 }
 
 void read_camera(const JsonValue& in, CameraParameters& camera) {
-  if (!in.object_of({"image", "focal", "kappa1", "center", "sx", "pixel", "rotation",
-                     "translation"})) {
+  if (!in.object_of(
+          {"image", "focal", "kappa1", "center", "sx", "pixel", "rotation", "translation"})) {
     return;
   }
   const auto image = needed_numbers<2>(in, "image", kPicture);
@@ -75,8 +75,7 @@ void read_background(const JsonValue& in, Background::Settings& settings) {
 }
 
 void read_people(const JsonValue& in, PersonSearch::Settings& settings) {
-  in.object_of(
-      {"height", "height_deviation", "false_foreground", "least_gain", "least_foot_row"});
+  in.object_of({"height", "height_deviation", "false_foreground", "least_gain", "least_foot_row"});
   in.read("height", settings.height_m, {0.3, 3});
   in.read("height_deviation", settings.height_deviation_m, {0, 1, true});
   in.read("false_foreground", settings.false_foreground, {0, 0.5, true});

@@ -12,15 +12,12 @@ namespace {
 constexpr double kChestTop = 0.20, kChestBottom = 0.48, kChestHalfWidth = 0.11;
 constexpr double kLeastShare = 0.02;  ///< less is not worth a name in the report
 
-bool within(double x, const double (&interval)[2]) {
-  return x >= interval[0] && x <= interval[1];
-}
+bool within(double x, const double (&interval)[2]) { return x >= interval[0] && x <= interval[1]; }
 
 }  // namespace
 
 bool NamedColor::holds(double h, double s, double v) const {
-  const bool hue_holds =
-      hue[0] <= hue[1] ? within(h, hue) : h >= hue[0] || h <= hue[1];
+  const bool hue_holds = hue[0] <= hue[1] ? within(h, hue) : h >= hue[0] || h <= hue[1];
   return hue_holds && within(s, saturation) && within(v, value);
 }
 

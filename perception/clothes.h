@@ -13,7 +13,7 @@ namespace anchord {
 /// grounded in a range of a measured quantity).
 struct NamedColor {
   std::string name;
-  double hue[2] = {0, 360};      ///< degrees; from the first upwards to the second, through 360
+  double hue[2] = {0, 360};  ///< degrees; from the first upwards to the second, through 360
   double saturation[2] = {0, 1};
   double value[2] = {0, 1};
 
@@ -25,9 +25,9 @@ class ClothesColors {
  public:
   struct Settings {
     std::vector<NamedColor> colors;  ///< of several that hold the first counts
-    double doubt = 0.1;        ///< share of every report that is spread over all colors
-    double sharpness = 0.1;    ///< exponent of the shares; see report()
-    double least_pixels = 30;  ///< of the upper body, for a report at all
+    double doubt = 0.1;              ///< share of every report that is spread over all colors
+    double sharpness = 0.1;          ///< exponent of the shares; see report()
+    double least_pixels = 30;        ///< of the upper body, for a report at all
   };
   explicit ClothesColors(Settings settings) : settings_(std::move(settings)) {}
 

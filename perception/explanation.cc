@@ -55,8 +55,8 @@ void Explanation::change(const Silhouette& person, double sign) {
       const double explained = std::max(1.0 - std::exp(log_background_(y, x)), false_foreground_);
       explained_(y, x) = static_cast<float>(explained);
       if (!observable_(y, x)) continue;
-      news_(y, x) = foreground_(y, x) *
-                    static_cast<float>(std::log(explained) / std::log(false_foreground_));
+      news_(y, x) =
+          foreground_(y, x) * static_cast<float>(std::log(explained) / std::log(false_foreground_));
     }
   }
 }

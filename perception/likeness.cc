@@ -22,8 +22,7 @@ double Likeness::of(const cv::Mat& frame, const Silhouette& person) const {
   for (const double scale : {0.9, 1.0, 1.1}) {
     for (const double shift : {-0.06, 0.0, 0.06}) {
       const double step = scale * person.height_px() / kPersonInWindow;  // pixels per window pixel
-      const double left =
-          middle.x() + shift * person.height_px() - 0.5 * window.width * step;
+      const double left = middle.x() + shift * person.height_px() - 0.5 * window.width * step;
       const double top = middle.y() - 0.5 * window.height * step;
       const cv::Mat1d to_frame = (cv::Mat1d(2, 3) << step, 0, left, 0, step, top);
       cv::Mat crop;

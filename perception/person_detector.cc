@@ -8,7 +8,7 @@ namespace anchord {
 
 namespace {
 
-constexpr int kMargin = 4;  ///< pixels about a person that the background does not take up
+constexpr int kMargin = 4;         ///< pixels about a person that the background does not take up
 constexpr double kViewStep = 200;  ///< pixels between the view's corners: lenses bend lines
 
 cv::Mat1b observable_pixels(const DetectorSettings& settings) {
@@ -126,9 +126,9 @@ Frame PersonDetector::report(const std::vector<DetectedPerson>& people, Utime ut
   for (const DetectedPerson& person : people) {
     const Eigen::Matrix2d c = person.covariance.unaryExpr([](double x) { return rounded(x, 1e6); });
     Detection detection;
-    detection.measurement = CartesianMeasurement{
-        {rounded(person.position.x(), 1e3), rounded(person.position.y(), 1e3)},
-        {c(0, 0), c(0, 1), c(0, 1), c(1, 1)}};
+    detection.measurement =
+        CartesianMeasurement{{rounded(person.position.x(), 1e3), rounded(person.position.y(), 1e3)},
+                             {c(0, 0), c(0, 1), c(0, 1), c(1, 1)}};
     detection.score = rounded(person.score, 1e4);
     detection.attributes.push_back({"class", SymbolReport{{{"person", 1.0}}}});
     if (!person.colors.empty()) {

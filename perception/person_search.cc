@@ -16,9 +16,10 @@ struct Block {
 constexpr std::array<Block, 3> kBlocks = {
     {{0.02, 0.17, 0.07, 0.65}, {0.17, 0.62, 0.14, 0.78}, {0.62, 0.97, 0.12, 0.60}}};
 
-constexpr double kRoughness = 0.8;     ///< blocks are rougher than silhouettes: they pass with less
-constexpr double kHeightWeight = 0.01; ///< of the prior: pixels of one person are far from independent
-constexpr int kRowsBelow = 24;         ///< feet may be a little below the picture
+constexpr double kRoughness = 0.8;  ///< blocks are rougher than silhouettes: they pass with less
+constexpr double kHeightWeight =
+    0.01;                       ///< of the prior: pixels of one person are far from independent
+constexpr int kRowsBelow = 24;  ///< feet may be a little below the picture
 constexpr int kSweeps = 2;
 
 /// How much of a person is seen, given the others.
@@ -152,9 +153,7 @@ std::vector<Silhouette> PersonSearch::explain(Explanation& explanation) const {
   return people;
 }
 
-std::vector<FoundPerson> PersonSearch::find(const cv::Mat1f& foreground) const {
-  Explanation explanation(foreground, observable_, settings_.false_foreground);
-  std::vector<Silhouette> people = explain(explanation);
+void PersonSearch::settle(Explanation& explanation, std::vector<Silhouette>& people) const {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (Silhouette& person : people) {
       explanation.remove(person);
@@ -162,14 +161,38 @@ std::vector<FoundPerson> PersonSearch::find(const cv::Mat1f& foreground) const {
       explanation.add(person);
     }
   }
-  std::vector<FoundPerson> found;
+}
+
+std::vector<double> PersonSearch::gains(Explanation& explanation,
+                                        const std::vector<Silhouette>& people) const {
+  std::vector<double> result;
   for (const Silhouette& person : people) {
     explanation.remove(person);
-    const double gain = explanation.gain(person).share();
+    result.push_back(explanation.gain(person).share());
     explanation.add(person);
-    if (gain < settings_.least_gain) continue;
-    found.push_back(measured(person, people, foreground, observable_));
-    found.back().gain = gain;
+  }
+  return result;
+}
+
+std::vector<FoundPerson> PersonSearch::find(const cv::Mat1f& foreground) const {
+  Explanation explanation(foreground, observable_, settings_.false_foreground);
+  std::vector<Silhouette> people = explain(explanation);
+  settle(explanation, people);
+  std::vector<double> gain = gains(explanation, people);
+  // Of two who explain the same, one must stay: whoever is needed least goes, one at a time.
+  while (!people.empty()) {
+    const auto least = std::min_element(gain.begin(), gain.end());
+    if (*least >= settings_.least_gain) break;
+    const auto person = people.begin() + (least - gain.begin());
+    explanation.remove(*person);
+    people.erase(person);
+    settle(explanation, people);
+    gain = gains(explanation, people);
+  }
+  std::vector<FoundPerson> found;
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    found.push_back(measured(people[i], people, foreground, observable_));
+    found.back().gain = gain[i];
   }
   return found;
 }

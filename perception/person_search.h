@@ -57,6 +57,10 @@ class PersonSearch {
   std::vector<Silhouette> explain(Explanation& explanation) const;
   double rough_gain(const Explanation& explanation, const Candidate& candidate) const;
   double gain_with_prior(const Explanation& explanation, const Silhouette& person) const;
+  /// Moves everyone to where they explain most, given the others.
+  void settle(Explanation& explanation, std::vector<Silhouette>& people) const;
+  /// What each wins, given all others: see FoundPerson::gain.
+  std::vector<double> gains(Explanation& explanation, const std::vector<Silhouette>& people) const;
   Silhouette refined(const Explanation& explanation, Silhouette person) const;
 
   Camera camera_;

@@ -27,8 +27,8 @@ constexpr std::array<Outline, 10> kOutline = {{{-0.02, 0.05, 0.040},
                                                {0.72, 0.80, 0.105},
                                                {0.95, 0.60, 0.130},
                                                {1.03, 0.08, 0.120}}};
-constexpr double kEdge = 0.02;      ///< softness of the outline
-constexpr double kReach = 0.25;     ///< half the width of the box
+constexpr double kEdge = 0.02;   ///< softness of the outline
+constexpr double kReach = 0.25;  ///< half the width of the box
 
 Outline outline_at(double y) {
   for (std::size_t i = 1; i < kOutline.size(); ++i) {
@@ -54,8 +54,8 @@ Table make_table() {
     const Outline outline = outline_at(kTop + (row + 0.5) * (kBottom - kTop) / kRows);
     for (int column = 0; column < kColumns; ++column) {
       const double x = (column + 0.5) * kReach / kColumns;
-      table[row][column] = static_cast<float>(
-          outline.peak / (1 + std::exp((x - outline.half_width) / kEdge)));
+      table[row][column] =
+          static_cast<float>(outline.peak / (1 + std::exp((x - outline.half_width) / kEdge)));
     }
   }
   return table;

@@ -10,8 +10,8 @@ namespace anchord {
 
 /// A standing person in the picture: upright on the ground at `foot`, `height_m` tall.
 struct Silhouette {
-  Eigen::Vector2d foot = Eigen::Vector2d::Zero();    ///< pixel between the feet
-  Eigen::Vector2d head = Eigen::Vector2d::Zero();    ///< pixel of the crown
+  Eigen::Vector2d foot = Eigen::Vector2d::Zero();      ///< pixel between the feet
+  Eigen::Vector2d head = Eigen::Vector2d::Zero();      ///< pixel of the crown
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< on the ground, m, map frame
   double height_m = 0;
 
@@ -23,7 +23,6 @@ struct Silhouette {
 };
 
 /// The silhouette of a person with the feet at a pixel; nothing where that is not ground.
-std::optional<Silhouette> stand(const Camera& camera, const Eigen::Vector2d& foot,
-                                double height_m);
+std::optional<Silhouette> stand(const Camera& camera, const Eigen::Vector2d& foot, double height_m);
 
 }  // namespace anchord

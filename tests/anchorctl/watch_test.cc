@@ -59,11 +59,11 @@ TEST(WatchText, TableHasSpeedWhereSomethingMoves) {
   Json moving = cup(1);
   moving["velocity"] = {0.3, 0.4};
   EXPECT_EQ(watch_table(objects({moving}), {}),
-            "OBJECT  P     CLASS     PLACE  POSITION [m]  SPEED     LAST SEEN\n"
-            "cup-1   0.97  cup 0.98  table  1.00, 2.00    0.50 m/s  now\n");
+            "OBJECT  P     CLASS     PLACE  POSITION [m]  SPEED     SEEN AGO\n"
+            "cup-1   0.97  cup 0.98  table  1.00, 2.00    0.50 m/s  0 s\n");
   EXPECT_EQ(watch_table(objects({cup(1)}), {}),
-            "OBJECT  P     CLASS     PLACE  POSITION [m]  LAST SEEN\n"
-            "cup-1   0.97  cup 0.98  table  1.00, 2.00    now\n");
+            "OBJECT  P     CLASS     PLACE  POSITION [m]  SEEN AGO\n"
+            "cup-1   0.97  cup 0.98  table  1.00, 2.00    0 s\n");
   EXPECT_EQ(watch_table(objects({}), {}), "no object\n");
 }
 
@@ -145,8 +145,8 @@ TEST(Watch, RedrawsTheScreenAndKeepsTheTableWhileItWaits) {
   const std::string second = fake.printed.substr(fake.printed.rfind("\x1b[H"));
   EXPECT_EQ(second,
             "\x1b[Hwaiting for the daemon at a:1\x1b[K\n\x1b[K\n"
-            "OBJECT  P     CLASS     PLACE  POSITION [m]  LAST SEEN\x1b[K\n"
-            "cup-1   0.97  cup 0.98  table  1.00, 2.00    now\x1b[K\n\x1b[J");
+            "OBJECT  P     CLASS     PLACE  POSITION [m]  SEEN AGO\x1b[K\n"
+            "cup-1   0.97  cup 0.98  table  1.00, 2.00    0 s\x1b[K\n\x1b[J");
   EXPECT_TRUE(fake.notes.empty());
 }
 

@@ -58,7 +58,8 @@ TEST(Field, TextIsThePath) {
   EXPECT_EQ(root.text(), "");
   EXPECT_EQ(root.element(2).text(), "[2]");
   const Field detections = root.member("detections");
-  EXPECT_EQ(detections.element(3).member("covariance").text(), "detections[3].covariance");
+  const Field detection = detections.element(3);
+  EXPECT_EQ(detection.member("covariance").text(), "detections[3].covariance");
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(HypothesisSet, JoinIsTheProductBestFirst) {
 TEST(HypothesisSet, FactorsOfAProductAreItsParts) {
   const auto a = set_of({{0.7, {0, 3}}, {0.2, {1, 3}}, {0.1, {2, 4}}});
   const auto b = set_of({{0.6, {0, -1}}, {0.4, {1, 0}}});
-  const auto groups = factors(join(a, b, 0, 0), 1e-12);
+  const auto groups = factors(join(a, b, 0, 0), {1e-12, 1e-12});
   EXPECT_EQ(groups, (std::vector<std::vector<int>>{{0, 1}, {2, 3}}));
   const auto part = marginal(join(a, b, 0, 0), {2, 3});
   ASSERT_EQ(part.size(), 2u);
@@ -65,13 +65,13 @@ TEST(HypothesisSet, FactorsOfAProductAreItsParts) {
 
 TEST(HypothesisSet, AnAnchorThatNeverVariesStandsAlone) {
   const auto set = set_of({{0.6, {0, 2, 0}}, {0.4, {1, 2, 1}}});
-  EXPECT_EQ(factors(set, 1e-12), (std::vector<std::vector<int>>{{0, 2}, {1}}));
+  EXPECT_EQ(factors(set, {1e-12, 1e-12}), (std::vector<std::vector<int>>{{0, 2}, {1}}));
 }
 
 TEST(HypothesisSet, WhatDependsOnlyInThreesStaysTogether) {
   // Parity: any two are independent, the three are not.
   const auto set = set_of({{1, {0, 0, 0}}, {1, {0, 1, 1}}, {1, {1, 0, 1}}, {1, {1, 1, 0}}});
-  EXPECT_EQ(factors(set, 1e-9).size(), 1u);
+  EXPECT_EQ(factors(set, {1e-9, 1e-9}).size(), 1u);
 }
 
 }  // namespace

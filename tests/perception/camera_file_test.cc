@@ -62,9 +62,9 @@ TEST(CameraFile, NamesEveryMistake) {
     EXPECT_TRUE(among(paths, path)) << path;
   }
   for (const char* start : {"camera.pixel", "camera.rotation", "colors[0].value"}) {
-    EXPECT_TRUE(std::any_of(paths.begin(), paths.end(),
-                            [&](const std::string& path) { return path.starts_with(start); }))
-        << start;
+    EXPECT_TRUE(std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
+      return path.starts_with(start);
+    })) << start;
   }
 }
 

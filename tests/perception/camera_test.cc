@@ -44,8 +44,7 @@ RC_GTEST_PROP(Camera, GroundAndPictureAreInverse, ()) {
   const Eigen::Vector2d pixel(*rc::gen::inRange(0, 768), *rc::gen::inRange(110, 576));
   const auto ground = camera.to_ground(pixel);
   RC_ASSERT(ground.has_value());
-  const Eigen::Vector2d back =
-      camera.project({ground->position.x(), ground->position.y(), 0});
+  const Eigen::Vector2d back = camera.project({ground->position.x(), ground->position.y(), 0});
   RC_ASSERT((back - pixel).norm() < 1e-9);  // rounding in numbers of some hundreds
 }
 

@@ -57,8 +57,7 @@ TEST_F(ClothesTest, SaysNothingWhenHidden) {
   const cv::Mat frame(576, 768, CV_8UC3, cv::Scalar(20, 20, 200));
   const cv::Mat1f all(frame.size(), 1.0F);
   EXPECT_TRUE(clothes_.shares(frame, all, cv::Mat1b(frame.size(), uchar{255}), person_).empty());
-  EXPECT_TRUE(
-      clothes_.shares(frame, all * 0, cv::Mat1b::zeros(frame.size()), person_).empty());
+  EXPECT_TRUE(clothes_.shares(frame, all * 0, cv::Mat1b::zeros(frame.size()), person_).empty());
 }
 
 /// The belief that equal reports add up to, the prior being uniform and a report's missing
@@ -66,8 +65,7 @@ TEST_F(ClothesTest, SaysNothingWhenHidden) {
 double belief_after(const SymbolReport& report, int times, std::size_t symbols) {
   double named = 0;
   for (const auto& [name, p] : report.probabilities) named += p;
-  const double rest =
-      (1 - named) / static_cast<double>(symbols - report.probabilities.size());
+  const double rest = (1 - named) / static_cast<double>(symbols - report.probabilities.size());
   double sum = static_cast<double>(symbols - report.probabilities.size()) * std::pow(rest, times);
   double best = 0;
   for (const auto& [name, p] : report.probabilities) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <opencv2/core/utils/logger.hpp>
 #include <string>
 #include <thread>
 
@@ -33,7 +34,7 @@ int run(Options options) {
   ConfigurationMistakes mistakes;
   const auto settings = read_camera_file(options.camera_file, mistakes);
   for (const auto& mistake : mistakes) {
-    std::fprintf(stderr, "%s: %s\n", options.camera_file.c_str(), mistake.text().c_str());
+    std::fprintf(stderr, "anchor-detect: --camera: %s\n", mistake.text().c_str());
   }
   if (!settings) return kWrongCall;
 
@@ -57,8 +58,7 @@ int run(Options options) {
     if (!picture) break;
     if (frames++ == 0) first = picture->utime;
     if ((*outputs)->live() && !video->live() && !options.fast) {
-      std::this_thread::sleep_until(started +
-                                    std::chrono::microseconds(picture->utime - first));
+      std::this_thread::sleep_until(started + std::chrono::microseconds(picture->utime - first));
     }
     const auto begun = Clock::now();
     const std::vector<DetectedPerson> people = detector.detect(picture->picture);
@@ -82,12 +82,12 @@ int main(int argc, char** argv) {
   app.add_option("input", options.video.input, "a video file, or a camera's number")->required();
   app.add_option("--camera", options.camera_file, "the camera's file")->capture_default_str();
   app.add_option("--fps", options.video.fps, "frames per second of a file; default: as it says")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.01, 1000.0));
   app.add_option("--start-utime", options.video.start_utime,
                  "time of a file's first frame, microseconds since 1970; default: now")
       ->check(CLI::Range(anchord::kEarliestUtime, anchord::kLatestUtime));
   app.add_option("--learn", options.learn_s, "seconds from which the empty scene is learnt")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str();
   app.add_option("--frames", options.most_frames, "stop after so many; 0: at the end")
       ->check(CLI::NonNegativeNumber)
@@ -95,8 +95,8 @@ int main(int argc, char** argv) {
   app.add_option("--log", options.outputs.log, "write an LCM log");
   app.add_option("--jsonl", options.outputs.jsonl, "write the frames as JSON lines");
   app.add_option("--features", options.outputs.features, "write what was measured, as CSV");
-  const auto* lcm = app.add_option("--lcm", url, "publish on this LCM URL ('' for the default)")
-                        ->expected(1);
+  const auto* lcm =
+      app.add_option("--lcm", url, "publish on this LCM URL ('' for the default)")->expected(1);
   app.add_flag("--fast", options.fast, "publish a file as fast as it is worked through");
   try {
     app.parse(argc, argv);
@@ -109,6 +109,8 @@ int main(int argc, char** argv) {
   }
   try {
     cv::setNumThreads(1);
+    cv::utils::logging::setLogLevel(
+        cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to say
     return anchord::run(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "anchor-detect: %s\n", error.what());

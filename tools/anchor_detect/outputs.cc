@@ -37,8 +37,8 @@ void Outputs::write_features(int index, const std::vector<DetectedPerson>& peopl
   for (const DetectedPerson& person : people) {
     const FoundPerson& found = person.found;
     const Eigen::Matrix2d& c = person.covariance;
-    features_ << index << ',' << person.position.x() << ',' << person.position.y() << ','
-              << c(0, 0) << ',' << c(0, 1) << ',' << c(1, 1) << ',' << person.score << ','
+    features_ << index << ',' << person.position.x() << ',' << person.position.y() << ',' << c(0, 0)
+              << ',' << c(0, 1) << ',' << c(1, 1) << ',' << person.score << ','
               << found.silhouette.foot.x() << ',' << found.silhouette.foot.y() << ','
               << found.silhouette.height_px() << ',' << found.gain << ',' << found.filled << ','
               << found.observed << ',' << found.alone << ',' << person.likeness << ',';

@@ -21,10 +21,10 @@ struct VideoFrame {
 class Video {
  public:
   struct Settings {
-    std::string input;  ///< a file, or a camera's number
-    cv::Size size;      ///< that the pictures must have
-    std::optional<double> fps;          ///< of a file; default: what the file says
-    std::optional<Utime> start_utime;   ///< of a file's first frame; default: when it is opened
+    std::string input;                 ///< a file, or a camera's number
+    cv::Size size;                     ///< that the pictures must have
+    std::optional<double> fps;         ///< of a file; default: what the file says
+    std::optional<Utime> start_utime;  ///< of a file's first frame; default: when it is opened
   };
   /// Refuses what cannot be opened, and pictures of another size.
   static Result<Video> open(const Settings& settings);

@@ -12,9 +12,9 @@ namespace {
 constexpr const char* kDefaultServer = "127.0.0.1:7780";
 
 constexpr const char* kWords =
-    " [OBJECT|CLASS] [KEY=VALUE]... [--KEY VALUE]...\n"
-    "An object (cup-12) or a class (cup), and what else it is like: color=blue size=small,\n"
-    "--place kitchen. Keys and values become parameters of the question to the daemon.\n";
+    " [KEY=VALUE]... [--KEY VALUE]...\n"
+    "An object is such as cup-12, a class such as cup. What else it is like: color=blue,\n"
+    "size=small, --place kitchen. Keys and values become parameters of the question.\n";
 
 struct Given {
   std::string server;
@@ -31,9 +31,12 @@ void add_common(CLI::App& app, Given& given) {
   app.add_flag("--json", given.json, "print the daemon's JSON as it came");
 }
 
-CLI::App& add_command(CLI::App& app, const char* name, const char* what, Given& given) {
+/// `first`: what the bare word may be; empty if the command takes no words.
+CLI::App& add_command(CLI::App& app, const std::string& name, const char* what,
+                      const std::string& first, Given& given) {
   CLI::App& command = *app.add_subcommand(name, what);
-  command.allow_extras()->footer("anchorctl " + std::string(name) + kWords);
+  command.allow_extras();
+  if (!first.empty()) command.footer("anchorctl " + name + " " + first + kWords);
   add_common(command, given);
   return command;
 }
@@ -80,21 +83,21 @@ std::variant<Call, int> parse_command_line(int argc, const char* const* argv) {
   Given given;
   add_common(app, given);
   app.require_subcommand(1);
-  add_command(app, "where", "who may be meant, and where it is", given);
+  add_command(app, "where", "who may be meant, and where it is", "[OBJECT|CLASS]", given);
   add_command(app, "objects", "every object that fits, or one with its models and alternatives",
-              given);
-  add_command(app, "count", "how many there are, as a distribution", given);
-  add_command(app, "hypotheses", "the most probable worlds, and in what they differ", given)
+              "[OBJECT|CLASS]", given);
+  add_command(app, "count", "how many there are, as a distribution", "[CLASS]", given);
+  add_command(app, "hypotheses", "the most probable worlds, and in what they differ", "", given)
       .add_option("--limit", given.limit, "that many worlds")
       ->check(CLI::Range(1u, 1'000'000u));
-  CLI::App& watching =
-      add_command(app, "watch", "shows the objects as they change; Ctrl-C ends it", given);
+  CLI::App& watching = add_command(app, "watch", "shows the objects as they change; Ctrl-C ends it",
+                                   "[CLASS]", given);
   watching.add_option("--interval", given.interval_s, "seconds from one look to the next")
       ->check(CLI::Range(0.05, 3600.0))
       ->capture_default_str();
   watching.add_option("--for", given.for_s, "stop after so many seconds")
       ->check(CLI::Range(0.0, 1e9));
-  add_command(app, "status", "how the daemon is", given).footer("");
+  add_command(app, "status", "how the daemon is", "", given);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

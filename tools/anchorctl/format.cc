@@ -75,15 +75,11 @@ std::string seen(std::optional<Utime> utime, std::optional<Utime> newest) {
   const auto last = newest ? local_time(*newest) : std::nullopt;
   const bool same_day = last && last->tm_yday == time->tm_yday && last->tm_year == time->tm_year;
   const std::string when = written(*time, same_day ? "%H:%M:%S" : "%Y-%m-%d %H:%M:%S");
-  const std::string span = age(utime, newest);
-  return when + (newest ? " " + glued("(" + span + ")") : "");
-}
-
-std::string age(std::optional<Utime> utime, std::optional<Utime> newest) {
-  if (!utime || !newest) return "-";
+  if (!newest) return when;
   const double age_s = seconds_between(*utime, *newest);
-  if (age_s == 0) return "now";
-  return age_s < 0 ? "in " + duration(-age_s) : duration(age_s) + " ago";
+  if (age_s == 0) return when + " (now)";
+  const std::string span = age_s < 0 ? "in " + duration(-age_s) : duration(age_s) + " ago";
+  return when + " " + glued("(" + span + ")");
 }
 
 std::string time_of_day(std::optional<Utime> utime) {

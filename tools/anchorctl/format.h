@@ -30,9 +30,6 @@ std::string date_and_time(std::optional<Utime> utime);
 /// unless that is the newest frame's: "22:13:20 (3.2 s ago)", "22:13:20 (now)".
 std::string seen(std::optional<Utime> utime, std::optional<Utime> newest);
 
-/// The age alone: "3.2 s ago", "now".
-std::string age(std::optional<Utime> utime, std::optional<Utime> newest);
-
 /// Local time of day: "22:13:20".
 std::string time_of_day(std::optional<Utime> utime);
 

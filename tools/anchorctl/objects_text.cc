@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "tools/anchorctl/answers.h"
@@ -18,7 +19,7 @@ std::string other_attributes(const Json& object) {
   for (const auto& [name, value] : attributes.items()) {
     if (name == "class") continue;
     std::string first = attribute(value);
-    if (!number(value, "mean")) first = first.substr(0, first.find(','));
+    if (!number(value, "mean")) first.resize(std::min(first.find(','), first.size()));
     written += (written.empty() ? "" : ", ") + glued(printable(name) + " " + first);
   }
   return written.empty() ? "-" : written;

@@ -18,6 +18,10 @@ std::string speed(const Json& object) {
   return decimal(std::sqrt(square)) + " m/s";
 }
 
+std::string age(std::optional<Utime> seen, std::optional<Utime> newest) {
+  return seen && newest ? duration(seconds_between(*seen, *newest)) : "-";
+}
+
 std::string count_of(const Json& status, const char* name) {
   const auto count = number(status, name);
   return count ? decimal(*count, 0) : "-";
@@ -56,7 +60,7 @@ std::string watch_table(const Json& answer, const Style& style) {
                                   [](const Json& object) { return member(object, "velocity"); });
   std::vector<Table::Column> columns{{"OBJECT"}, {"P"}, {"CLASS"}, {"PLACE"}, {"POSITION [m]"}};
   if (moving) columns.push_back({"SPEED"});
-  columns.push_back({"LAST SEEN"});
+  columns.push_back({"SEEN AGO"});
   Table table(std::move(columns));
   std::size_t rows = objects.size();
   const auto room = static_cast<std::size_t>(std::max(style.height - 2, 1));  // header, "and more"
