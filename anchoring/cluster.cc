@@ -11,9 +11,9 @@ namespace {
 /// Leaves whose means lie within this many standard deviations of each other are alike. A mixture
 /// of two unit normals 0.5 apart differs from its moments' normal by a total variation of 0.001.
 constexpr double kAlikeDistance = 0.5;
-/// What splitting a cluster may cost where hypotheses are bounded anyway, and the rounding it
-/// forgives where they are not.
-const Independence kSplitLoss{getenv("SP")?atof(getenv("SP")):1e-4, getenv("SW")?atof(getenv("SW")):1e-4}, kSplitRounding{1e-13, 1e-13};
+/// A dependence between anchors that changes no probability by more than this is let go where
+/// hypotheses are bounded anyway; where they are not, only rounding is.
+const double kNegligible = getenv("SP") ? atof(getenv("SP")) : 1e-4, kRounding = 1e-12;
 
 /// What of a hypothesis the last scans tell: which anchor was given which detections.
 std::vector<std::uint64_t> recent_history(const Cluster& cluster, const Hypothesis& h) {
@@ -104,19 +104,20 @@ void merge_alike(Cluster& cluster, const Background& background) {
 std::vector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
                                                   const Background& background) {
   const Limits& limits = background.knowledge.limits;
-  // Rounding alone where nothing is pruned, else what pruning loses anyway.
-  const Independence& allowed =
-      limits.min_weight > 0 || limits.max_hypotheses > 0 ? kSplitLoss : kSplitRounding;
+  const bool cut = limits.max_hypotheses > 0 &&
+                   cluster.hypotheses.size() >= static_cast<std::size_t>(limits.max_hypotheses);
+  const double floor = cut ? std::exp(cluster.hypotheses.back().log_weight) : limits.min_weight;
+  const double tolerance =
+      limits.min_weight > 0 || limits.max_hypotheses > 0 ? kNegligible : kRounding;
   std::vector<std::shared_ptr<const Cluster>> parts;
-  for (const auto& group : factors(cluster.hypotheses, allowed)) {
+  for (Factor& factor : factorise(cluster.hypotheses, floor, tolerance)) {
     auto part = std::make_shared<Cluster>();
-    HypothesisSet hypotheses = marginal(cluster.hypotheses, group);
     std::vector<int> used;
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const auto& leaves = cluster.anchors[group[i]].leaves;
+    for (std::size_t i = 0; i < factor.anchors.size(); ++i) {
+      const auto& leaves = cluster.anchors[factor.anchors[i]].leaves;
       std::vector<int> number(leaves.size(), Hypothesis::kNoLeaf);
-      AnchorTree tree{cluster.anchors[group[i]].anchor, {}};
-      for (Hypothesis& h : hypotheses) {
+      AnchorTree tree{cluster.anchors[factor.anchors[i]].anchor, {}};
+      for (Hypothesis& h : factor.hypotheses) {
         int& leaf = h.leaf[i];
         if (leaf == Hypothesis::kNoLeaf) continue;
         if (number[leaf] == Hypothesis::kNoLeaf) {
@@ -130,8 +131,8 @@ std::vector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
       part->anchors.push_back(std::move(tree));
     }
     if (used.empty()) continue;
-    part->hypotheses =
-        used.size() == group.size() ? std::move(hypotheses) : marginal(hypotheses, used);
+    part->hypotheses = used.size() == factor.anchors.size() ? std::move(factor.hypotheses)
+                                                            : marginal(factor.hypotheses, used);
     parts.push_back(std::move(part));
   }
   return parts;

@@ -2,133 +2,161 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numeric>
+#include <unordered_map>
 
 namespace anchord {
 namespace {
 
-/// Sets that grow together.
-class Groups {
+/// How many times the floor a missing combination must weigh to count: the set it was cut from may
+/// have been cut before.
+constexpr double kClearly = 4;
+
+struct Change {
+  int anchor, leaf;
+  bool operator==(const Change&) const = default;
+};
+
+/// The same for the same changes, whatever their order; of no changes 0; of the changes of two
+/// disjoint sets of anchors the exclusive or.
+std::uint64_t hash_of(const Change& change) {
+  std::uint64_t x = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(change.anchor)) << 32) |
+                    static_cast<std::uint32_t>(change.leaf);
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;  // splitmix64's finaliser
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+class Factoriser {
  public:
-  explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
+  Factoriser(const HypothesisSet& set, double floor, double tolerance)
+      : set_(set), least_missed_(kClearly * floor), tolerance_(tolerance) {
+    const std::size_t anchors = set.front().leaf.size();
+    parent_.resize(anchors);
+    std::iota(parent_.begin(), parent_.end(), 0);
+    for (std::size_t h = 0; h < set.size(); ++h) {
+      auto& changes = changes_.emplace_back();
+      std::uint64_t key = 0;
+      for (std::size_t a = 0; a < anchors; ++a)
+        if (set[h].leaf[a] != set[0].leaf[a]) {
+          changes.push_back({static_cast<int>(a), set[h].leaf[a]});
+          key ^= hash_of(changes.back());
+        }
+      keys_.push_back(key);
+      by_key_.emplace(key, static_cast<int>(h));
+    }
+    while (unite_unexplained() || unite_exclusive()) {
+    }
+  }
+
+  std::vector<Factor> factors() {
+    std::map<int, Factor> by_root;
+    for (int a = 0; a < static_cast<int>(parent_.size()); ++a)
+      by_root[find(a)].anchors.push_back(a);
+    for (std::size_t h = 0; h < set_.size(); ++h) {
+      if (changes_[h].empty()) {
+        for (auto& [root, factor] : by_root) add(factor, static_cast<int>(h));
+      } else if (const int root = only_group(static_cast<int>(h)); root >= 0) {
+        add(by_root[root], static_cast<int>(h));
+      }
+    }
+    std::vector<Factor> out;
+    for (auto& [root, factor] : by_root) {
+      normalise(factor.hypotheses);
+      out.push_back(std::move(factor));
+    }
+    return out;
+  }
+
+ private:
+  int find(int a) {
+    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
+    return a;
   }
   void unite(int a, int b) {
     a = find(a), b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
-  std::vector<std::vector<int>> all() {
-    std::map<int, std::vector<int>> by_root;
-    for (int i = 0; i < static_cast<int>(parent_.size()); ++i) by_root[find(i)].push_back(i);
-    std::vector<std::vector<int>> out;
-    for (auto& [root, members] : by_root) out.push_back(std::move(members));
-    return out;
+
+  double log_ratio(int h) const { return set_[h].log_weight - set_[0].log_weight; }
+
+  /// The group that holds all of a hypothesis' changes, or -1.
+  int only_group(int h) {
+    const int root = find(changes_[h].front().anchor);
+    for (const Change& change : changes_[h])
+      if (find(change.anchor) != root) return -1;
+    return root;
   }
 
- private:
+  void add(Factor& factor, int h) const {
+    Hypothesis part{set_[h].log_weight, {}};
+    for (int a : factor.anchors) part.leaf.push_back(set_[h].leaf[a]);
+    factor.hypotheses.push_back(std::move(part));
+  }
+
+  /// Joins groups whose joint changes do not weigh the product of their single ones.
+  bool unite_unexplained() {
+    bool united = false;
+    for (std::size_t h = 1; h < set_.size(); ++h) {
+      std::map<int, std::uint64_t> parts;  // by group: the key of its changes
+      for (const Change& change : changes_[h]) parts[find(change.anchor)] ^= hash_of(change);
+      if (parts.size() < 2) continue;
+      double log_product = set_[0].log_weight;
+      bool explained = true;
+      for (const auto& [root, key] : parts) {
+        const auto single = by_key_.find(key);
+        explained = explained && single != by_key_.end();
+        if (explained) log_product += log_ratio(single->second);
+      }
+      if (explained &&
+          std::abs(std::exp(log_product) - std::exp(set_[h].log_weight)) <= tolerance_)
+        continue;
+      for (const auto& [root, key] : parts) unite(parts.begin()->first, root);
+      united = true;
+    }
+    return united;
+  }
+
+  /// Joins groups whose changes exclude each other: combinations that should be there are not.
+  bool unite_exclusive() {
+    std::map<int, std::vector<int>> singles;  // by group, best first
+    for (int h = 1; h < static_cast<int>(set_.size()); ++h)
+      if (const int root = only_group(h); root >= 0) singles[root].push_back(h);
+    bool united = false;
+    for (auto i = singles.begin(); i != singles.end(); ++i)
+      for (auto j = std::next(i); j != singles.end(); ++j) {
+        if (find(i->first) == find(j->first)) continue;
+        double missed = 0;
+        for (int a : i->second) {
+          for (int b : j->second) {
+            const double expected = std::exp(set_[0].log_weight + log_ratio(a) + log_ratio(b));
+            if (expected <= least_missed_) break;
+            if (!by_key_.count(keys_[a] ^ keys_[b])) missed += expected;
+          }
+          if (missed > tolerance_) break;
+        }
+        if (missed <= tolerance_) continue;
+        unite(i->first, j->first);
+        united = true;
+      }
+    return united;
+  }
+
+  const HypothesisSet& set_;
+  double least_missed_, tolerance_;
   std::vector<int> parent_;
+  std::vector<std::vector<Change>> changes_;  // per hypothesis, from the best one
+  std::vector<std::uint64_t> keys_;
+  std::unordered_map<std::uint64_t, int> by_key_;
 };
-
-/// One variable over the hypotheses: for each a label, with the labels' probabilities.
-struct Variable {
-  std::vector<int> label;
-  std::vector<double> probability;
-  double minor = 0;  // all but the most probable label
-};
-
-Variable variable(const HypothesisSet& set, const std::vector<double>& weight,
-                  const std::vector<int>& anchors) {
-  std::map<std::vector<int>, int> labels;
-  Variable v;
-  std::vector<int> key(anchors.size());
-  for (std::size_t h = 0; h < set.size(); ++h) {
-    for (std::size_t i = 0; i < anchors.size(); ++i) key[i] = set[h].leaf[anchors[i]];
-    const auto [it, is_new] = labels.try_emplace(key, static_cast<int>(labels.size()));
-    if (is_new) v.probability.push_back(0);
-    v.label.push_back(it->second);
-    v.probability[it->second] += weight[h];
-  }
-  v.minor = 1 - *std::max_element(v.probability.begin(), v.probability.end());
-  return v;
-}
-
-/// Total variation between the joint distribution of two variables and the product of theirs.
-double dependence(const Variable& a, const Variable& b, const std::vector<double>& weight) {
-  const std::size_t columns = b.probability.size();
-  std::vector<double> joint(a.probability.size() * columns, 0.0);
-  for (std::size_t h = 0; h < weight.size(); ++h)
-    joint[a.label[h] * columns + b.label[h]] += weight[h];
-  double sum = 0;
-  for (std::size_t i = 0; i < a.probability.size(); ++i)
-    for (std::size_t j = 0; j < columns; ++j)
-      sum += std::abs(joint[i * columns + j] - a.probability[i] * b.probability[j]);
-  return sum / 2;
-}
-
-/// Total variation between the set and the product of the groups' marginals.
-double loss(const std::vector<Variable>& groups, const std::vector<double>& weight) {
-  double difference = 0, covered = 0;
-  for (std::size_t h = 0; h < weight.size(); ++h) {
-    double product = 1;
-    for (const auto& g : groups) product *= g.probability[g.label[h]];
-    difference += std::abs(weight[h] - product);
-    covered += product;
-  }
-  return (difference + std::max(0.0, 1 - covered)) / 2;
-}
-
-std::vector<Variable> variables(const HypothesisSet& set, const std::vector<double>& weight,
-                                const std::vector<std::vector<int>>& groups) {
-  std::vector<Variable> out;
-  for (const auto& group : groups) out.push_back(variable(set, weight, group));
-  return out;
-}
 
 }  // namespace
 
-std::vector<std::vector<int>> factors(const HypothesisSet& set, const Independence& allowed) {
-  const std::size_t anchors = set.empty() ? 0 : set[0].leaf.size();
-  if (anchors == 0) return {};
-  std::vector<double> weight;
-  for (const auto& h : set) weight.push_back(std::exp(h.log_weight));
-
-  Groups groups(anchors);
-  while (true) {
-    const auto members = groups.all();
-    const auto now = variables(set, weight, members);
-    if (loss(now, weight) <= allowed.whole) return members;
-    // Pairs first. What only depends in larger groups shows in the loss alone, and is joined by
-    // the strongest dependence that is left, or, where no pair shows any, all at once.
-    double strongest = 0;
-    std::size_t left = 0, right = 0;
-    bool joined = false;
-    for (std::size_t i = 0; i < now.size(); ++i)
-      for (std::size_t j = i + 1; j < now.size(); ++j) {
-        if (std::min(now[i].minor, now[j].minor) * 2 <= allowed.pair / anchors) continue;
-        const double d = dependence(now[i], now[j], weight);
-        if (d > allowed.pair) {
-          groups.unite(members[i][0], members[j][0]);
-          joined = true;
-        } else if (d > strongest) {
-          strongest = d, left = i, right = j;
-        }
-      }
-    if (joined) continue;
-    if (strongest > 0) {
-      groups.unite(members[left][0], members[right][0]);
-      continue;
-    }
-    int varying = -1;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      if (now[i].minor <= 0) continue;
-      if (varying >= 0) groups.unite(varying, members[i][0]);
-      varying = members[i][0];
-    }
-    return groups.all();
-  }
+std::vector<Factor> factorise(const HypothesisSet& set, double floor, double tolerance) {
+  if (set.empty() || set.front().leaf.empty()) return {};
+  return Factoriser(set, floor, tolerance).factors();
 }
 
 }  // namespace anchord

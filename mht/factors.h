@@ -6,16 +6,22 @@
 
 namespace anchord {
 
-/// How far from independent the groups of factors() may be, in total variation: any two of them,
-/// and the product of all groups' marginals from the set. A set that has been cut to its best
-/// hypotheses lacks the tail of a product, which the second allows for.
-struct Independence {
-  double pair = 0, whole = 0;
+/// Some anchors of a cluster with their own hypotheses, independent of the cluster's others.
+struct Factor {
+  std::vector<int> anchors;  ///< ascending
+  HypothesisSet hypotheses;  ///< over these anchors, in this order; normalised, best first
 };
 
-/// Groups of a cluster's anchors whose choices of leaf are independent of the other groups'. Each
-/// group ascending, groups in order of their first anchor. One group if the set does not
-/// factorise. The set must be normalised and without equal hypotheses.
-std::vector<std::vector<int>> factors(const HypothesisSet& set, const Independence& allowed);
+/// The independent factors of a set, in order of their first anchor; their product is the set.
+///
+/// Each hypothesis is read as the best one with some anchors changed. Anchors are independent where
+/// changes of several weigh, relative to the best, what the changes weigh one by one; a factor
+/// holds the changes within it. A set that has been cut to its best hypotheses is so completed by
+/// the tail of the product: that a combination is missing tells of dependence only if it should
+/// weigh clearly more than `floor`, the least weight that the cut has left. Probabilities that
+/// differ by less than `tolerance` from the product's count as equal.
+///
+/// The set must be normalised, best first and without equal hypotheses.
+std::vector<Factor> factorise(const HypothesisSet& set, double floor, double tolerance);
 
 }  // namespace anchord
