@@ -1,60 +1,56 @@
 #include "anchoring/cluster.h"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 
 #include "mht/factors.h"
 
 namespace anchord {
 namespace {
 
-/// Leaves whose means lie within this many standard deviations of each other are alike. A mixture
-/// of two unit normals 0.5 apart differs from its moments' normal by a total variation of 0.001.
-constexpr double kAlikeDistance = 0.5;
-/// A dependence between anchors that changes no probability by more than this is let go where
-/// hypotheses are bounded anyway; where they are not, only rounding is.
-const double kNegligible = getenv("SP") ? atof(getenv("SP")) : 1e-4, kRounding = 1e-12;
+/// Versions that were given the same detections lately and differ by less are alike.
+constexpr double kAlike = 0.2;
+/// Total variation that merging two versions may cost the cluster.
+const double kNegligibleMerge = getenv("SM") ? atof(getenv("SM")) : 1e-5;
 
-/// What of a hypothesis the last scans tell: which anchor was given which detections.
-std::vector<std::uint64_t> recent_history(const Cluster& cluster, const Hypothesis& h) {
-  std::vector<std::uint64_t> history;
-  for (std::size_t a = 0; a < h.leaf.size(); ++a) {
-    if (h.leaf[a] == Hypothesis::kNoLeaf) continue;
-    const auto& recent = cluster.anchors[a].leaves[h.leaf[a]]->recent;
-    if (recent.empty()) continue;
-    history.push_back(~static_cast<std::uint64_t>(a));  // no detection has so high a number
-    history.insert(history.end(), recent.begin(), recent.end());
-  }
-  return history;
-}
+/// What may be off the product of independent clusters where hypotheses are bounded anyway, and
+/// where they are not.
+const double kNegligible = getenv("SP") ? atof(getenv("SP")) : 1e-4, kUneven = getenv("SR") ? atof(getenv("SR")) : 0.05, kRounding = 1e-12;
 
-bool alike(const Cluster& cluster, const Hypothesis& x, const Hypothesis& y,
-           const Background& background) {
-  for (std::size_t a = 0; a < x.leaf.size(); ++a) {
-    if (x.leaf[a] == y.leaf[a] || x.leaf[a] == Hypothesis::kNoLeaf ||
-        y.leaf[a] == Hypothesis::kNoLeaf)
-      continue;
-    const auto& leaves = cluster.anchors[a].leaves;
-    if (!alike(*leaves[x.leaf[a]], *leaves[y.leaf[a]], kAlikeDistance, background)) return false;
+/// The leaves of an anchor, made fewer: for each old one the number of the one it is now part of.
+std::vector<int> merged(AnchorTree& tree, const std::vector<double>& probability,
+                        const Background& background) {
+  const std::size_t n = tree.leaves.size();
+  std::vector<int> order(n), number(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return probability[a] > probability[b]; });
+  struct Kept {
+    int head;  // the most probable of those in it: what others are compared with
+    std::shared_ptr<const Leaf> leaf;
+    double probability;
+  };
+  std::vector<Kept> kept;
+  for (int l : order) {
+    const Leaf& leaf = *tree.leaves[l];
+    const auto into = std::find_if(kept.begin(), kept.end(), [&](const Kept& k) {
+      const Leaf& head = *tree.leaves[k.head];
+      const double d = difference(head, leaf, background);
+      return probability[l] * d <= kNegligibleMerge || (d <= kAlike && head.recent == leaf.recent);
+    });
+    number[l] = static_cast<int>(into - kept.begin());
+    if (into == kept.end()) {
+      kept.push_back({l, tree.leaves[l], probability[l]});
+    } else if (probability[l] > 0) {
+      into->leaf = std::make_shared<const Leaf>(
+          merge(into->probability, *into->leaf, probability[l], leaf, background));
+      into->probability += probability[l];
+    }
   }
-  return true;
-}
-
-/// An anchor's leaf for two hypotheses made one. Where one of them has none, existence falls.
-int merged_leaf(AnchorTree& tree, double weight_x, int x, double weight_y, int y,
-                const Background& background) {
-  if (x == y) return x;
-  if (x == Hypothesis::kNoLeaf || y == Hypothesis::kNoLeaf) {
-    const bool has_x = x != Hypothesis::kNoLeaf;
-    Leaf leaf = *tree.leaves[has_x ? x : y];
-    leaf.existence *= (has_x ? weight_x : weight_y) / (weight_x + weight_y);
-    if (leaf.existence < background.knowledge.limits.min_existence) return Hypothesis::kNoLeaf;
-    tree.leaves.push_back(std::make_shared<const Leaf>(std::move(leaf)));
-  } else {
-    tree.leaves.push_back(std::make_shared<const Leaf>(
-        merge(weight_x, *tree.leaves[x], weight_y, *tree.leaves[y], background)));
-  }
-  return static_cast<int>(tree.leaves.size()) - 1;
+  tree.leaves.clear();
+  for (Kept& k : kept) tree.leaves.push_back(std::move(k.leaf));
+  return number;
 }
 
 }  // namespace
@@ -73,44 +69,35 @@ const Leaf* Cluster::best_leaf(int anchor) const {
 }
 
 void merge_alike(Cluster& cluster, const Background& background) {
-  if (cluster.hypotheses.size() < 2) return;
-  std::map<std::vector<std::uint64_t>, std::vector<std::size_t>> groups;
-  HypothesisSet kept;
-  bool merged = false;
-  for (Hypothesis& h : cluster.hypotheses) {
-    auto& group = groups[recent_history(cluster, h)];
-    Hypothesis* into = nullptr;
-    for (std::size_t i : group)
-      if (alike(cluster, kept[i], h, background)) {
-        into = &kept[i];
-        break;
-      }
-    if (!into) {
-      group.push_back(kept.size());
-      kept.push_back(std::move(h));
-      continue;
-    }
-    const double x = std::exp(into->log_weight), y = std::exp(h.log_weight);
-    for (std::size_t a = 0; a < h.leaf.size(); ++a)
-      into->leaf[a] =
-          merged_leaf(cluster.anchors[a], x, into->leaf[a], y, h.leaf[a], background);
-    into->log_weight = std::log(x + y);
-    merged = true;
+  std::vector<double> weight;
+  for (const Hypothesis& h : cluster.hypotheses) weight.push_back(std::exp(h.log_weight));
+  bool any = false;
+  for (std::size_t a = 0; a < cluster.anchors.size(); ++a) {
+    AnchorTree& tree = cluster.anchors[a];
+    if (tree.leaves.size() < 2) continue;
+    std::vector<double> probability(tree.leaves.size(), 0.0);
+    for (std::size_t h = 0; h < weight.size(); ++h)
+      if (const int leaf = cluster.hypotheses[h].leaf[a]; leaf != Hypothesis::kNoLeaf)
+        probability[leaf] += weight[h];
+    const std::size_t before = tree.leaves.size();
+    const std::vector<int> number = merged(tree, probability, background);
+    any = any || tree.leaves.size() < before;
+    for (Hypothesis& h : cluster.hypotheses)
+      if (h.leaf[a] != Hypothesis::kNoLeaf) h.leaf[a] = number[h.leaf[a]];
   }
-  cluster.hypotheses = std::move(kept);
-  if (merged) normalise(cluster.hypotheses);
+  if (any) merge_equal(cluster.hypotheses);
 }
 
 std::vector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
                                                   const Background& background) {
   const Limits& limits = background.knowledge.limits;
-  const bool cut = limits.max_hypotheses > 0 &&
-                   cluster.hypotheses.size() >= static_cast<std::size_t>(limits.max_hypotheses);
-  const double floor = cut ? std::exp(cluster.hypotheses.back().log_weight) : limits.min_weight;
-  const double tolerance =
-      limits.min_weight > 0 || limits.max_hypotheses > 0 ? kNegligible : kRounding;
+  const bool bounded = limits.min_weight > 0 || limits.max_hypotheses > 0;
+  const bool full = limits.max_hypotheses > 0 &&
+                    cluster.hypotheses.size() >= static_cast<std::size_t>(limits.max_hypotheses);
+  const double floor = full ? std::exp(cluster.hypotheses.back().log_weight) : limits.min_weight;
+  const Cut cut = bounded ? Cut{floor, kNegligible, kUneven} : Cut{0, kRounding, 0};
   std::vector<std::shared_ptr<const Cluster>> parts;
-  for (Factor& factor : factorise(cluster.hypotheses, floor, tolerance)) {
+  for (Factor& factor : factorise(cluster.hypotheses, cut)) {
     auto part = std::make_shared<Cluster>();
     std::vector<int> used;
     for (std::size_t i = 0; i < factor.anchors.size(); ++i) {

@@ -7,8 +7,10 @@
 
 namespace anchord {
 
-/// Makes one of hypotheses that were given the same detections in the last scans and whose leaves
-/// are alike: they differ only in the distant past. Leaves are merged by moments, weighted.
+/// Makes one of versions of an anchor where that loses nothing that matters: where the rarer one's
+/// probability times their difference() is negligible, or where both were given the same detections
+/// in the last `scan_depth` scans and are alike, so that they differ only in the distant past.
+/// Versions are merged by moments; hypotheses that become equal are one.
 void merge_alike(Cluster& cluster, const Background& background);
 
 /// A cluster as the independent clusters it consists of (mht/factors.h), without leaves and

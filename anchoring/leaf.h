@@ -85,9 +85,10 @@ Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double 
 Leaf merge(double weight_a, const Leaf& a, double weight_b, const Leaf& b,
            const Background& background);
 
-/// Whether two versions are so alike that merging them loses nothing one would notice: every
-/// model's mean within `distance` standard deviations of the other's.
-bool alike(const Leaf& a, const Leaf& b, double distance, const Background& background);
+/// How much two versions of an anchor at the same time differ: about the total variation between
+/// what they say (existence, class, attributes, behaviour, position), 0 to 1; 1 where the models
+/// are not comparable. Densities far from alike count as 1.
+double difference(const Leaf& a, const Leaf& b, const Background& background);
 
 /// Moves the densities to the models of the most probable class, if that has changed.
 void follow_class(Leaf& leaf, const Background& background);

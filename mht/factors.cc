@@ -31,8 +31,7 @@ std::uint64_t hash_of(const Change& change) {
 
 class Factoriser {
  public:
-  Factoriser(const HypothesisSet& set, double floor, double tolerance)
-      : set_(set), least_missed_(kClearly * floor), tolerance_(tolerance) {
+  Factoriser(const HypothesisSet& set, const Cut& cut) : set_(set), cut_(cut) {
     const std::size_t anchors = set.front().leaf.size();
     parent_.resize(anchors);
     std::iota(parent_.begin(), parent_.end(), 0);
@@ -110,8 +109,8 @@ class Factoriser {
         explained = explained && single != by_key_.end();
         if (explained) log_product += log_ratio(single->second);
       }
-      if (explained &&
-          std::abs(std::exp(log_product) - std::exp(set_[h].log_weight)) <= tolerance_)
+      const double product = std::exp(log_product), actual = std::exp(set_[h].log_weight);
+      if (explained && std::abs(product - actual) <= cut_.absolute + cut_.relative * product)
         continue;
       for (const auto& [root, key] : parts) unite(parts.begin()->first, root);
       united = true;
@@ -132,12 +131,12 @@ class Factoriser {
         for (int a : i->second) {
           for (int b : j->second) {
             const double expected = std::exp(set_[0].log_weight + log_ratio(a) + log_ratio(b));
-            if (expected <= least_missed_) break;
+            if (expected <= kClearly * cut_.floor) break;
             if (!by_key_.count(keys_[a] ^ keys_[b])) missed += expected;
           }
-          if (missed > tolerance_) break;
+          if (missed > cut_.absolute) break;
         }
-        if (missed <= tolerance_) continue;
+        if (missed <= cut_.absolute) continue;
         unite(i->first, j->first);
         united = true;
       }
@@ -145,7 +144,7 @@ class Factoriser {
   }
 
   const HypothesisSet& set_;
-  double least_missed_, tolerance_;
+  Cut cut_;
   std::vector<int> parent_;
   std::vector<std::vector<Change>> changes_;  // per hypothesis, from the best one
   std::vector<std::uint64_t> keys_;
@@ -154,9 +153,9 @@ class Factoriser {
 
 }  // namespace
 
-std::vector<Factor> factorise(const HypothesisSet& set, double floor, double tolerance) {
+std::vector<Factor> factorise(const HypothesisSet& set, const Cut& cut) {
   if (set.empty() || set.front().leaf.empty()) return {};
-  return Factoriser(set, floor, tolerance).factors();
+  return Factoriser(set, cut).factors();
 }
 
 }  // namespace anchord

@@ -65,7 +65,7 @@ constexpr double kRounding = 1e-12;
 TEST(Factorise, FactorsOfAProductAreItsParts) {
   const auto a = set_of({{0.7, {0, 3}}, {0.2, {1, 3}}, {0.1, {2, 4}}});
   const auto b = set_of({{0.6, {0, -1}}, {0.4, {1, 0}}});
-  const auto parts = factorise(join(a, b, 0, 0), 0, kRounding);
+  const auto parts = factorise(join(a, b, 0, 0), {0, kRounding, 0});
   ASSERT_EQ(groups(parts), (std::vector<std::vector<int>>{{0, 1}, {2, 3}}));
   ASSERT_EQ(parts[1].hypotheses.size(), 2u);
   EXPECT_NEAR(std::exp(parts[1].hypotheses[0].log_weight), 0.6, kRounding);
@@ -76,7 +76,7 @@ TEST(Factorise, AProductThatWasCutIsCompleted) {
   const auto a = set_of({{0.9, {0}}, {0.08, {1}}, {0.02, {2}}});
   const auto b = set_of({{0.95, {0}}, {0.04, {1}}, {0.01, {2}}});
   const auto cut = join(a, b, 5, 0);
-  const auto parts = factorise(cut, std::exp(cut.back().log_weight), 1e-6);
+  const auto parts = factorise(cut, {std::exp(cut.back().log_weight), 1e-6, 0});
   ASSERT_EQ(groups(parts), (std::vector<std::vector<int>>{{0}, {1}}));
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(parts[0].hypotheses[i].log_weight, a[i].log_weight, kRounding);
@@ -86,20 +86,20 @@ TEST(Factorise, AProductThatWasCutIsCompleted) {
 
 TEST(Factorise, AnAnchorThatNeverVariesStandsAlone) {
   const auto set = set_of({{0.6, {0, 2, 0}}, {0.4, {1, 2, 1}}});
-  EXPECT_EQ(groups(factorise(set, 0, kRounding)), (std::vector<std::vector<int>>{{0, 2}, {1}}));
+  EXPECT_EQ(groups(factorise(set, {0, kRounding, 0})), (std::vector<std::vector<int>>{{0, 2}, {1}}));
 }
 
 TEST(Factorise, ChangesThatExcludeEachOtherStayTogether) {
   const auto set = set_of({{0.8, {0, 0}}, {0.1, {1, 0}}, {0.1, {0, 1}}});
-  EXPECT_EQ(factorise(set, 0, kRounding).size(), 1u);
+  EXPECT_EQ(factorise(set, {0, kRounding, 0}).size(), 1u);
   // 0.1 * 0.1 / 0.8 may be missing because it lay below a floor of 0.01.
-  EXPECT_EQ(factorise(set, 0.01, kRounding).size(), 2u);
+  EXPECT_EQ(factorise(set, {0.01, kRounding, 0}).size(), 2u);
 }
 
 TEST(Factorise, WhatDependsOnlyInThreesStaysTogether) {
   // Parity: any two are independent, the three are not.
   const auto set = set_of({{1, {0, 0, 0}}, {1, {0, 1, 1}}, {1, {1, 0, 1}}, {1, {1, 1, 0}}});
-  EXPECT_EQ(factorise(set, 0, kRounding).size(), 1u);
+  EXPECT_EQ(factorise(set, {0, kRounding, 0}).size(), 1u);
 }
 
 }  // namespace
