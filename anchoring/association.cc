@@ -78,20 +78,20 @@ class Children {
   int of(int leaf, int z, AnchorTree& tree) {
     int& number = number_[leaf * (detections_.size() + 1) + z + 1];
     if (number == kUnmade) {
-      Leaf child = made(*tied_.leaves[leaf], z);
-      if (child.existence < background_.knowledge.limits.min_existence || child.existence <= 0) {
+      auto child = std::make_shared<Leaf>(tied_.leaves[leaf]->leaf);
+      become(*child, *tied_.leaves[leaf], z);
+      if (child->existence < background_.knowledge.limits.min_existence || child->existence <= 0) {
         number = Hypothesis::kNoLeaf;
       } else {
         number = static_cast<int>(tree.leaves.size());
-        tree.leaves.push_back(std::make_shared<const Leaf>(std::move(child)));
+        tree.leaves.push_back(std::move(child));
       }
     }
     return number;
   }
 
  private:
-  Leaf made(const PredictedLeaf& parent, int z) const {
-    Leaf child = parent.leaf;
+  void become(Leaf& child, const PredictedLeaf& parent, int z) const {
     const auto depth = static_cast<std::uint64_t>(background_.knowledge.limits.scan_depth);
     if (depth > 0) {
       const auto old = [&](std::uint64_t r) { return (r >> 16) + depth <= frame_number_; };
@@ -104,7 +104,6 @@ class Children {
                    background_);
     else
       give(child, frame_.detections[detections_[z]], *frame_.sensor, background_);
-    return child;
   }
 
   const Tied& tied_;
@@ -154,14 +153,16 @@ std::vector<std::shared_ptr<const Cluster>> associate(
   }
 
   Children children(tied, detections, frame, belief.frames, visibility, background);
-  RankedAssociations ranked(problem);
+  RankedAssociations ranked(problem, background.log_least_weight);
   double total = kLogZero;
+  std::vector<int> given;  // per leaf of the parent: a detection or kMiss
   while (auto next = ranked.next()) {
     // Below this a weight stays below min_weight whatever else is found.
     if (next->log_weight < total + background.log_least_weight) break;
     total = log_add(total, next->log_weight);
-    std::vector<int> given(problem.parents[next->parent].leaves.size(), kMiss);
-    Hypothesis h{next->log_weight, std::vector<int>(joint.anchors.size(), Hypothesis::kNoLeaf)};
+    given.assign(problem.parents[next->parent].leaves.size(), kMiss);
+    Hypothesis h{next->log_weight, {}};
+    h.leaf.resize(joint.anchors.size(), Hypothesis::kNoLeaf);
     for (std::size_t z = 0; z < detections.size(); ++z) {
       if (next->leaf_of[z] != Association::kNone)
         given[next->leaf_of[z]] = static_cast<int>(z);

@@ -9,8 +9,9 @@
 namespace anchord {
 namespace {
 
-/// Versions that were given the same detections lately and differ by less are alike.
-constexpr double kAlike = 0.2;
+/// Versions that differ by less are alike; what differs more is never merged, however rare: a far
+/// one moves the moments by more than its probability.
+const double kAlike = getenv("SA") ? atof(getenv("SA")) : 0.2;
 /// Total variation that merging two versions may cost the cluster.
 const double kNegligibleMerge = getenv("SM") ? atof(getenv("SM")) : 1e-5;
 
@@ -37,7 +38,8 @@ std::vector<int> merged(AnchorTree& tree, const std::vector<double>& probability
     const auto into = std::find_if(kept.begin(), kept.end(), [&](const Kept& k) {
       const Leaf& head = *tree.leaves[k.head];
       const double d = difference(head, leaf, background);
-      return probability[l] * d <= kNegligibleMerge || (d <= kAlike && head.recent == leaf.recent);
+      return d <= kAlike &&
+             (probability[l] * d <= kNegligibleMerge || head.recent == leaf.recent);
     });
     number[l] = static_cast<int>(into - kept.begin());
     if (into == kept.end()) {

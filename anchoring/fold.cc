@@ -34,9 +34,10 @@ double log_gain(const PredictedLeaf& predicted, const Anchor& anchor, const MapD
                 const Origin& origin, const Sensor& sensor, const Background& background) {
   const bool named = !z.object.empty() && anchor.id() == z.object;
   const Leaf& leaf = predicted.leaf;
-  if (leaf.existence <= 0 || (!named && !in_gate(leaf, z, background))) return kLogZero;
-  double gain = std::log(leaf.existence) - predicted.log_miss - origin.log_weight +
-                log_likelihood(leaf, z, sensor.detection_probability, background);
+  if (leaf.existence <= 0) return kLogZero;
+  const double log_g = log_likelihood(leaf, z, sensor.detection_probability, !named, background);
+  if (log_g == kLogZero) return kLogZero;
+  double gain = std::log(leaf.existence) - predicted.log_miss - origin.log_weight + log_g;
   if (!z.object.empty() && !named) gain += std::log(sensor.identity_doubt);
   // The world in which z is new or clutter instead outweighs this one by the gain: what lies
   // below min_weight here cannot be above it among all hypotheses.
@@ -73,7 +74,8 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
   PredictedCluster out;
   out.gated.assign(frame.detections.size(), 0);
   out.leaves.resize(cluster->anchors.size());
-  for (std::size_t a = 0; a < cluster->anchors.size(); ++a)
+  for (std::size_t a = 0; a < cluster->anchors.size(); ++a) {
+    out.leaves[a].reserve(cluster->anchors[a].leaves.size());
     for (const auto& leaf : cluster->anchors[a].leaves) {
       PredictedLeaf& predicted = out.leaves[a].emplace_back();
       predicted.leaf = *leaf;
@@ -90,6 +92,7 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
         out.gated[z] = 1;
       }
     }
+  }
   out.cluster = std::move(cluster);
   return out;
 }

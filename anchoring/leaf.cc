@@ -58,10 +58,30 @@ void flow(Leaf& leaf, double dt, const Background& background) {
   }
 }
 
-double log_position_likelihood(const ModelState& state, const Gaussian& z, int dims) {
-  if (const auto* kinematic = std::get_if<Kinematic>(&state.density))
-    return fit(*kinematic, z, dims).log_likelihood;
-  return std::log(std::get<Somewhere>(state.density).likelihood(z));
+/// ln of a model's share in the likelihood of a position, and whether it lies in the model's gate.
+struct PositionFit {
+  double log_likelihood = kLogZero;
+  bool in_gate = false;
+};
+
+PositionFit position_fit(const ModelState& state, const Gaussian& z, const Background& background) {
+  const double gate = background.knowledge.limits.gate_probability;
+  if (const auto* kinematic = std::get_if<Kinematic>(&state.density)) {
+    const Fit f = fit(*kinematic, z, background.dims);
+    return {f.log_likelihood, f.distance2 <= background.gate_distance2};
+  }
+  const auto& somewhere = std::get<Somewhere>(state.density);
+  const double uniform = mass(z, somewhere.footprint()->region, background.dims);
+  return {uniform > 0 ? std::log(somewhere.likelihood(z, uniform)) : kLogZero, uniform > 1 - gate};
+}
+
+/// Whether z may lie in the gate of a model; most detections are too far from most leaves.
+bool may_gate(const ModelState& state, const Gaussian& z, const Background& background) {
+  const auto* kinematic = std::get_if<Kinematic>(&state.density);
+  if (!kinematic) return true;
+  // The squared distance over the trace of S is at most Mahalanobis'.
+  const double trace = kinematic->pp.trace() + z.covariance.trace();
+  return (z.mean - kinematic->position).squaredNorm() <= background.gate_distance2 * trace;
 }
 
 double log_attribute_ratio(const Leaf& leaf, const AttributeEvidence& evidence,
@@ -124,43 +144,35 @@ void predict(Leaf& leaf, Utime utime, const Background& background) {
 }
 
 double log_likelihood(const Leaf& leaf, const MapDetection& z,
-                      const std::vector<double>& detection_probability,
+                      const std::vector<double>& detection_probability, bool gated,
                       const Background& background) {
+  const double gate = background.knowledge.limits.gate_probability;
+  gated = gated && gate < 1;
+  const auto& models = background.object_class(leaf.model_class).models;
+  const auto counts = [&](std::size_t m) {
+    return models[m].detectable && leaf.models[m].weight > 0;
+  };
+  const auto gates = [&](std::size_t m) { return leaf.models[m].weight > 1 - gate; };
+  bool in_gate = !gated;
+  for (std::size_t m = 0; m < leaf.models.size() && !in_gate; ++m)
+    in_gate = counts(m) && gates(m) && may_gate(leaf.models[m], z.position, background);
+  if (!in_gate) return kLogZero;
+
+  in_gate = !gated;
+  double log_position = kLogZero;
+  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
+    if (!counts(m)) continue;
+    const PositionFit f = position_fit(leaf.models[m], z.position, background);
+    log_position = log_add(log_position, std::log(leaf.models[m].weight) + f.log_likelihood);
+    in_gate = in_gate || (f.in_gate && gates(m));
+  }
+  if (!in_gate || log_position == kLogZero) return kLogZero;
   double by_class = 0;
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
     by_class += leaf.classes[c] * detection_probability[c] * z.class_ratio[c];
-  const auto& models = background.object_class(leaf.model_class).models;
-  double log_position = kLogZero;
-  for (std::size_t m = 0; m < leaf.models.size(); ++m)
-    if (models[m].detectable && leaf.models[m].weight > 0)
-      log_position = log_add(log_position,
-                             std::log(leaf.models[m].weight) +
-                                 log_position_likelihood(leaf.models[m], z.position,
-                                                         background.dims));
   double log_g = std::log(by_class) + log_position;
   for (const auto& evidence : z.attributes) log_g += log_attribute_ratio(leaf, evidence, background);
   return log_g;
-}
-
-bool in_gate(const Leaf& leaf, const MapDetection& z, const Background& background) {
-  const double gate = background.knowledge.limits.gate_probability;
-  if (gate >= 1) return true;
-  const auto& models = background.object_class(leaf.model_class).models;
-  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
-    if (!models[m].detectable || leaf.models[m].weight <= 1 - gate) continue;
-    if (const auto* kinematic = std::get_if<Kinematic>(&leaf.models[m].density)) {
-      // The squared distance over the trace of S is at most Mahalanobis': most end here.
-      const double trace = kinematic->pp.trace() + z.position.covariance.trace();
-      if ((z.position.mean - kinematic->position).squaredNorm() > background.gate_distance2 * trace)
-        continue;
-      if (fit(*kinematic, z.position, background.dims).distance2 <= background.gate_distance2)
-        return true;
-    } else if (mass(z.position, std::get<Somewhere>(leaf.models[m].density).footprint()->region,
-                    background.dims) > 1 - gate) {
-      return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace anchord

@@ -60,14 +60,11 @@ struct LeafVisibility {
 void predict(Leaf& leaf, Utime utime, const Background& background);
 
 /// ln g(z | leaf) of a predicted leaf, not yet counting r; kLogZero where it cannot be.
-/// `detection_probability` is per class.
+/// `detection_probability` is per class. With `gated`, also kLogZero where z lies outside the gates
+/// of all behaviour models that carry more weight than the gate leaves out.
 double log_likelihood(const Leaf& leaf, const MapDetection& z,
-                      const std::vector<double>& detection_probability,
+                      const std::vector<double>& detection_probability, bool gated,
                       const Background& background);
-
-/// Whether z lies within the gate of any behaviour model that carries more weight than the gate
-/// leaves out.
-bool in_gate(const Leaf& leaf, const MapDetection& z, const Background& background);
 
 /// A predicted leaf that is given z.
 void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Background& background);

@@ -64,19 +64,20 @@ void take_over(ModelState& to, const ModelState& from, const BehaviourModel& mod
   to.weight += from.weight;
 }
 
-/// About the total variation between two Gaussians over position and velocity. For small
-/// distances d of the means, 0.4 d (2 Phi(d / 2) - 1); for spreads, a quarter of their logarithms'
-/// difference in each axis.
+/// About the total variation between two Gaussians over position and velocity, axis by axis: for
+/// means d standard deviations apart 0.4 d (2 Phi(d / 2) - 1 for small d), for variances a quarter
+/// of their relative difference.
 double difference(const Kinematic& a, const Kinematic& b, int dims) {
-  const double d2 = fit(a, b.position_density(), dims).distance2 * 2;  // over the mean covariance
-  double sum = 0.4 * std::sqrt(d2);
-  for (int i = 0; i < dims; ++i) {
-    sum += 0.25 * std::abs(std::log(a.pp(i, i) / b.pp(i, i)));
-    if (a.vv(i, i) > 0 && b.vv(i, i) > 0)
-      sum += 0.4 * std::abs(a.velocity[i] - b.velocity[i]) /
-                 std::sqrt(0.5 * (a.vv(i, i) + b.vv(i, i))) +
-             0.25 * std::abs(std::log(a.vv(i, i) / b.vv(i, i)));
-  }
+  const auto of = [](double gap, double variance_a, double variance_b) {
+    const double sum = variance_a + variance_b;
+    return sum > 0 ? 0.4 * std::abs(gap) / std::sqrt(0.5 * sum) +
+                         0.5 * std::abs(variance_a - variance_b) / sum
+                   : 0.0;
+  };
+  double sum = 0;
+  for (int i = 0; i < dims; ++i)
+    sum += of(a.position[i] - b.position[i], a.pp(i, i), b.pp(i, i)) +
+           of(a.velocity[i] - b.velocity[i], a.vv(i, i), b.vv(i, i));
   return std::min(sum, 1.0);
 }
 

@@ -31,7 +31,7 @@ void Assignment::solve(const std::vector<double>& cost) {
   for (int z = 0; z < detections_; ++z) augment(z, kFree, cost, nullptr);
 }
 
-bool Assignment::reassign(int z, const std::vector<double>& cost, const std::vector<char>& fixed) {
+bool Assignment::reassign(int z, const std::vector<double>& cost, const RowFlags& fixed) {
   const int left = column_of_[z];
   column_of_[z] = kFree;
   row_of_[left] = kFree;
@@ -42,12 +42,12 @@ bool Assignment::reassign(int z, const std::vector<double>& cost, const std::vec
 /// column. With one it must end there: the column that z has just left, while the other free
 /// columns count as held by one more row ("nobody") that takes any column at cost 0.
 bool Assignment::augment(int z, int target, const std::vector<double>& cost,
-                         const std::vector<char>* fixed) {
+                         const RowFlags* fixed) {
   constexpr int kNobody = -2, kStart = -3;
   const int n = columns();
-  std::vector<double> distance(n, kInfinite);
-  std::vector<int> from(n, kStart);  // the row (or nobody) whose edge reached the column
-  std::vector<char> done(n, 0);
+  boost::container::small_vector<double, 16> distance(n, kInfinite);
+  boost::container::small_vector<int, 16> from(n, kStart);  // the row (or nobody) that reached it
+  boost::container::small_vector<char, 16> done(n, 0);
   double nobody_distance = kInfinite;
   int nobody_column = kFree;
 
@@ -66,7 +66,7 @@ bool Assignment::augment(int z, int target, const std::vector<double>& cost,
   };
   relax_row(z, 0);
   int end = kFree;
-  std::vector<int> visited;
+  boost::container::small_vector<int, 16> visited;
   while (true) {
     int nearest = kFree;
     for (int c = 0; c < n; ++c)

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <vector>
 
 namespace anchord {
+
+/// One flag for each detection.
+using RowFlags = boost::container::small_vector<char, 16>;
 
 /// Which leaf each detection is given to, at most one detection to a leaf, or to none: the
 /// assignment of least cost, with the dual prices that prove it.
@@ -22,7 +26,7 @@ class Assignment {
   /// Goes on to the optimum after the pair (z, choice(z)) and possibly others have been made
   /// infinite in row z of `cost`. Rows with a flag in `fixed` keep theirs. False if there is no
   /// assignment left; the object is then spent.
-  bool reassign(int z, const std::vector<double>& cost, const std::vector<char>& fixed);
+  bool reassign(int z, const std::vector<double>& cost, const RowFlags& fixed);
 
   /// What detection z is given to: a leaf, or leaves() for none.
   int choice(int z) const { return column_of_[z] < leaves_ ? column_of_[z] : leaves_; }
@@ -39,12 +43,12 @@ class Assignment {
   static constexpr int kFree = -1;
   int columns() const { return leaves_ + detections_; }
   double reduced(int z, int column, const std::vector<double>& cost) const;
-  bool augment(int z, int target, const std::vector<double>& cost, const std::vector<char>* fixed);
+  bool augment(int z, int target, const std::vector<double>& cost, const RowFlags* fixed);
 
   int detections_, leaves_;
   // Columns: the leaves, then each detection's own "none".
-  std::vector<int> column_of_, row_of_;
-  std::vector<double> row_price_, column_price_;
+  boost::container::small_vector<int, 8> column_of_, row_of_;
+  boost::container::small_vector<double, 8> row_price_, column_price_;
   double free_price_ = 0;  // of whoever holds the columns that no detection has
 };
 

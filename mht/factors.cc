@@ -155,6 +155,7 @@ class Factoriser {
 
 std::vector<Factor> factorise(const HypothesisSet& set, const Cut& cut) {
   if (set.empty() || set.front().leaf.empty()) return {};
+  if (set.front().leaf.size() == 1) return {{{0}, set}};
   return Factoriser(set, cut).factors();
 }
 

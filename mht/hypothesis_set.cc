@@ -2,12 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <queue>
+#include <unordered_map>
 
 #include "core/log_probability.h"
 
 namespace anchord {
+namespace {
+
+/// FNV-1a over the leaf numbers.
+std::uint64_t hash_of(const Hypothesis& h) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (int leaf : h.leaf)
+    hash = (hash ^ static_cast<std::uint32_t>(leaf)) * 1099511628211u;
+  return hash;
+}
+
+}  // namespace
 
 void normalise(HypothesisSet& set) {
   std::stable_sort(set.begin(), set.end(), [](const Hypothesis& a, const Hypothesis& b) {
@@ -18,14 +30,20 @@ void normalise(HypothesisSet& set) {
 }
 
 void merge_equal(HypothesisSet& set) {
-  std::map<std::vector<int>, std::size_t> first;
+  std::unordered_map<std::uint64_t, boost::container::small_vector<std::size_t, 1>> by_hash;
+  by_hash.reserve(set.size());
   HypothesisSet merged;
+  merged.reserve(set.size());
   for (auto& h : set) {
-    const auto [it, is_new] = first.try_emplace(h.leaf, merged.size());
-    if (is_new)
-      merged.push_back(std::move(h));
-    else
-      merged[it->second].log_weight = log_add(merged[it->second].log_weight, h.log_weight);
+    auto& same_hash = by_hash[hash_of(h)];
+    const auto equal = std::find_if(same_hash.begin(), same_hash.end(),
+                                    [&](std::size_t i) { return merged[i].leaf == h.leaf; });
+    if (equal != same_hash.end()) {
+      merged[*equal].log_weight = log_add(merged[*equal].log_weight, h.log_weight);
+      continue;
+    }
+    same_hash.push_back(merged.size());
+    merged.push_back(std::move(h));
   }
   set = std::move(merged);
   normalise(set);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <vector>
 
 namespace anchord {
@@ -10,7 +11,7 @@ struct Hypothesis {
   /// The anchor is not part of this world.
   static constexpr int kNoLeaf = -1;
   double log_weight = 0;
-  std::vector<int> leaf;  ///< per anchor of the cluster
+  boost::container::small_vector<int, 12> leaf;  ///< per anchor of the cluster
 };
 
 /// The hypotheses of one cluster, all over the same anchors. Functions keep them best first; equal

@@ -8,8 +8,8 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 }
 
-RankedAssociations::RankedAssociations(const AssociationProblem& problem)
-    : problem_(problem), costs_(problem.parents.size()) {
+RankedAssociations::RankedAssociations(const AssociationProblem& problem, double log_least)
+    : problem_(problem), costs_(problem.parents.size()), log_least_(log_least) {
   for (std::size_t p = 0; p < problem.parents.size(); ++p) {
     const auto& parent = problem.parents[p];
     double bound = parent.log_weight;  // every detection gets its best leaf, shared or not
@@ -66,11 +66,11 @@ void RankedAssociations::branch(const Node& node) {
   scratch_ = costs;
   for (int entry : node.banned) scratch_[entry] = kInfinite;
   const int width = node.assignment.leaves() + 1;
-  std::vector<char> fixed = node.fixed;
+  RowFlags fixed = node.fixed;
   for (int z = 0; z < problem_.detections; ++z) {
     if (fixed[z]) continue;
     const double loss = node.assignment.least_loss(z, scratch_);
-    if (loss < kInfinite) {
+    if (node.bound - loss > least_bound_) {
       Node child{node.bound - loss, 0, node.parent, false, z, node.assignment, fixed, {}};
       for (int entry : node.banned)
         if (!fixed[entry / width]) child.banned.push_back(entry);
@@ -95,8 +95,10 @@ std::optional<Association> RankedAssociations::next() {
         continue;
       }
     }
+    if (least_bound_ == kLogZero) least_bound_ = node.bound + log_least_;
     branch(node);
-    Association found{node.parent, node.bound, std::vector<int>(problem_.detections)};
+    Association found{node.parent, node.bound, {}};
+    found.leaf_of.resize(problem_.detections);
     const int none = node.assignment.leaves();
     for (int z = 0; z < problem_.detections; ++z) {
       const int choice = node.assignment.choice(z);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/log_probability.h"
 #include "mht/assignment.h"
 
 namespace anchord {
@@ -27,7 +28,7 @@ struct Association {
   static constexpr int kNone = -1;
   int parent = 0;
   double log_weight = 0;
-  std::vector<int> leaf_of;  ///< per detection a position in the parent's `leaves`, or kNone
+  boost::container::small_vector<int, 8> leaf_of;  ///< per detection a position in the parent's `leaves`, or kNone
 };
 
 /// All associations of a problem, best first, over all parents at once: one heap of subproblems
@@ -35,7 +36,8 @@ struct Association {
 /// Cox 1997). Ties come in a fixed order.
 class RankedAssociations {
  public:
-  explicit RankedAssociations(const AssociationProblem& problem);
+  /// Associations whose log-weight is less than the best one's plus `log_least` may be left out.
+  explicit RankedAssociations(const AssociationProblem& problem, double log_least = kLogZero);
 
   /// The next best, or nothing when all have been given.
   std::optional<Association> next();
@@ -48,8 +50,8 @@ class RankedAssociations {
     bool solved;
     int banned_row;                    // the row that must change, -1 for a root
     Assignment assignment;             // of the node it came from, until solved
-    std::vector<char> fixed;           // rows that may not change
-    std::vector<int> banned;           // entries of the cost matrix made infinite
+    RowFlags fixed;           // rows that may not change
+    boost::container::small_vector<int, 8> banned;           // entries of the cost matrix made infinite
     bool operator<(const Node& other) const {
       return bound != other.bound ? bound < other.bound : order > other.order;
     }
@@ -64,6 +66,8 @@ class RankedAssociations {
   std::vector<double> scratch_;
   std::vector<Node> heap_;
   long created_ = 0;
+  double log_least_;
+  double least_bound_ = kLogZero;  // of nodes worth keeping, once the best is known
 };
 
 }  // namespace anchord

@@ -1,7 +1,7 @@
 #include "models/kinematic.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <numbers>
 
 namespace anchord {
@@ -11,29 +11,70 @@ template <int D>
 using Square = Eigen::Matrix<double, D, D>;
 
 template <int D>
-Eigen::LLT<Square<D>> innovation(const Kinematic& state, const Gaussian& z) {
-  return Eigen::LLT<Square<D>>(state.pp.topLeftCorner<D, D>() +
-                               z.covariance.topLeftCorner<D, D>());
-}
+using Vector = Eigen::Matrix<double, D, 1>;
+
+/// The Cholesky factor of an innovation's covariance S = pp + R, unrolled: this is the innermost
+/// loop of all association.
+template <int D>
+struct Innovation {
+  double l[D][D];
+
+  Innovation(const Kinematic& state, const Gaussian& z) {
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j <= i; ++j) {
+        double s = state.pp(i, j) + z.covariance(i, j);
+        for (int k = 0; k < j; ++k) s -= l[i][k] * l[j][k];
+        l[i][j] = i == j ? std::sqrt(s) : s / l[j][j];
+      }
+  }
+  /// L^-1 x.
+  Vector<D> whiten(const Vector<D>& x) const {
+    Vector<D> y;
+    for (int i = 0; i < D; ++i) {
+      double s = x[i];
+      for (int k = 0; k < i; ++k) s -= l[i][k] * y[k];
+      y[i] = s / l[i][i];
+    }
+    return y;
+  }
+  /// S^-1 m.
+  Square<D> solve(const Square<D>& m) const {
+    Square<D> out;
+    for (int c = 0; c < D; ++c) {
+      Vector<D> y = whiten(m.col(c));
+      for (int i = D - 1; i >= 0; --i) {
+        for (int k = i + 1; k < D; ++k) y[i] -= l[k][i] * y[k];
+        y[i] /= l[i][i];
+      }
+      out.col(c) = y;
+    }
+    return out;
+  }
+  double root_determinant() const {
+    double product = 1;
+    for (int i = 0; i < D; ++i) product *= l[i][i];
+    return product;
+  }
+};
 
 template <int D>
 Fit fit_in(const Kinematic& state, const Gaussian& z) {
-  const auto llt = innovation<D>(state, z);
-  Eigen::Matrix<double, D, 1> e = z.mean.head<D>() - state.position.head<D>();
-  llt.matrixL().solveInPlace(e);
-  const double distance2 = e.squaredNorm();
-  const double log_root_det = llt.matrixLLT().diagonal().array().log().sum();
-  return {-0.5 * distance2 - log_root_det - 0.5 * D * std::log(2 * std::numbers::pi), distance2};
+  const Innovation<D> innovation(state, z);
+  const Vector<D> e = z.mean.head<D>() - state.position.head<D>();
+  const double distance2 = innovation.whiten(e).squaredNorm();
+  return {-0.5 * distance2 - std::log(innovation.root_determinant()) -
+              0.5 * D * std::log(2 * std::numbers::pi),
+          distance2};
 }
 
 template <int D>
 void update_in(Kinematic& state, const Gaussian& z) {
-  const auto llt = innovation<D>(state, z);
+  const Innovation<D> innovation(state, z);
   const Square<D> p = state.pp.topLeftCorner<D, D>(), c = state.pv.topLeftCorner<D, D>();
   const Square<D> r = z.covariance.topLeftCorner<D, D>();
-  const Square<D> gain = llt.solve(p).transpose();           // P S^-1
-  const Square<D> gain_velocity = llt.solve(c).transpose();  // C' S^-1
-  const Eigen::Matrix<double, D, 1> e = z.mean.head<D>() - state.position.head<D>();
+  const Square<D> gain = innovation.solve(p).transpose();           // P S^-1
+  const Square<D> gain_velocity = innovation.solve(c).transpose();  // C' S^-1
+  const Vector<D> e = z.mean.head<D>() - state.position.head<D>();
   state.position.head<D>() += gain * e;
   state.velocity.head<D>() += gain_velocity * e;
   const Square<D> rest = Square<D>::Identity() - gain;

@@ -100,7 +100,10 @@ double Somewhere::density(const Eigen::Vector3d& point) const {
 }
 
 double Somewhere::likelihood(const Gaussian& z) const {
-  const double uniform = ::anchord::mass(z, footprint_->region, footprint_->dims);
+  return likelihood(z, ::anchord::mass(z, footprint_->region, footprint_->dims));
+}
+
+double Somewhere::likelihood(const Gaussian& z, double uniform) const {
   if (!looked_at_ || uniform <= 0) return uniform / footprint_->volume;
   const double spread2 = std::max(z.covariance(0, 0), z.covariance(1, 1));
   if (spread2 * 16 < footprint_->grid.cell * footprint_->grid.cell && uniform > 0.999)

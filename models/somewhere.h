@@ -50,6 +50,8 @@ class Somewhere {
   /// by 5 x 5 equally probable points for what was looked at already, unless the noise is small
   /// against a cell, when the value of the mean's cell is taken.
   double likelihood(const Gaussian& measurement) const;
+  /// The same where the measurement's mass in the place is known.
+  double likelihood(const Gaussian& measurement, double mass_in_place) const;
 
   /// The density's mass in view; `visible` from Footprint::visible().
   double mass(const std::vector<double>& visible) const;

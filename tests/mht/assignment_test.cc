@@ -59,7 +59,7 @@ TEST(Assignment, GoesOnToTheCheapestAfterLosingPairsAndItsBoundHolds) {
       cost.push_back(i % (m + 1) == m ? 0 : random.real(-10, 5));
     Assignment assignment(n, m);
     assignment.solve(cost);
-    const std::vector<char> none_fixed(n, 0);
+    const RowFlags none_fixed(n, 0);
     for (int step = 0; step < 6; ++step) {
       const int z = static_cast<int>(random.engine() % n);
       const double bound = assignment.cost(cost) + assignment.least_loss(z, cost);

@@ -17,7 +17,7 @@ inline std::vector<Association> every_association(const AssociationProblem& prob
     std::vector<char> used(parent.leaves.size(), 0);
     const auto recurse = [&](const auto& self, int z, double weight) -> void {
       if (z == problem.detections) {
-        out.push_back({p, weight, leaf_of});
+        out.push_back({p, weight, {leaf_of.begin(), leaf_of.end()}});
         return;
       }
       leaf_of[z] = Association::kNone;

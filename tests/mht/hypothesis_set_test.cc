@@ -9,7 +9,7 @@
 namespace anchord {
 namespace {
 
-HypothesisSet set_of(std::vector<std::pair<double, std::vector<int>>> entries) {
+HypothesisSet set_of(std::vector<std::pair<double, boost::container::small_vector<int, 12>>> entries) {
   HypothesisSet set;
   for (auto& [weight, leaf] : entries) set.push_back({std::log(weight), leaf});
   normalise(set);
@@ -44,7 +44,7 @@ TEST(HypothesisSet, JoinIsTheProductBestFirst) {
   const auto b = set_of({{0.6, {0, 0}}, {0.4, {1, 1}}});
   const auto all = join(a, b, 0, 0);
   ASSERT_EQ(all.size(), 6u);
-  EXPECT_EQ(all[0].leaf, (std::vector<int>{0, 0, 0}));
+  EXPECT_EQ(all[0].leaf, (boost::container::small_vector<int, 12>{0, 0, 0}));
   EXPECT_NEAR(std::exp(all[5].log_weight), 0.04, 1e-15);
   for (std::size_t i = 1; i < all.size(); ++i)
     EXPECT_LE(all[i].log_weight, all[i - 1].log_weight);

@@ -37,7 +37,7 @@ TEST(RankedAssociations, GiveEveryAssociationOnceAndBestFirst) {
     const auto problem = random_problem(random, 4, 5, 3);
     const auto expected = testing::every_association(problem);
     RankedAssociations ranked(problem);
-    std::set<std::pair<int, std::vector<int>>> seen;
+    std::set<std::pair<int, boost::container::small_vector<int, 8>>> seen;
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const auto next = ranked.next();
       ASSERT_TRUE(next.has_value()) << "trial " << trial << ", rank " << i;
