@@ -148,7 +148,7 @@ std::vector<std::shared_ptr<const Cluster>> associate(
     auto leaf = birth(detections[z], frame, origins[detections[z]], belief.frames, background);
     if (!leaf) continue;
     anchor_of[z] = static_cast<int>(joint.anchors.size());
-    auto anchor = std::make_shared<const Anchor>(Anchor{belief.births + detections[z] + 1, ""});
+    auto anchor = std::make_shared<const Anchor>(Anchor{belief.births + detections[z] + 1, belief.frames, ""});
     joint.anchors.push_back({std::move(anchor), {std::move(leaf)}});
   }
 
@@ -182,7 +182,10 @@ std::vector<std::shared_ptr<const Cluster>> associate(
   }
   merge_equal(joint.hypotheses);
   belief.dropped += prune(joint.hypotheses, 0, limits.min_weight);
-  if (limits.scan_depth > 0) merge_alike(joint, background);
+  if (limits.scan_depth > 0) {
+    merge_alike(joint, background);
+    merge_twins(joint, background);
+  }
   return split(joint, background);
 }
 

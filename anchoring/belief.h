@@ -14,6 +14,7 @@ namespace anchord {
 /// One object that is believed to exist, whichever hypothesis leads: its identity for life.
 struct Anchor {
   std::uint64_t birth = 0;  ///< counts anchors in order of birth (frame, then detection)
+  std::uint64_t birth_frame = 0;  ///< number of the frame of its first detection
   std::string name;         ///< `cup-12`; empty until it has p >= 0.5 or stands in a best world
 
   /// The name, or `new-N` before it has one.

@@ -7,11 +7,16 @@
 
 namespace anchord {
 
-/// Makes one of versions of an anchor where that loses nothing that matters: where the rarer one's
-/// probability times their difference() is negligible, or where both were given the same detections
-/// in the last `scan_depth` scans and are alike, so that they differ only in the distant past.
+/// Makes one of versions of an anchor that are alike (their difference() is small) where that loses
+/// nothing that matters: where the rarer one is rare enough, or where both were given the same
+/// detections in the last `scan_depth` frames, so that they differ only in the distant past.
 /// Versions are merged by moments; hypotheses that become equal are one.
 void merge_alike(Cluster& cluster, const Background& background);
+
+/// Makes one anchor of two that no world holds both of, that were born within `scan_depth` frames of
+/// each other and have been given the same detections since, and are alike: one object of which it
+/// is only unknown which detection was its first. The named one stays, else the likelier one.
+void merge_twins(Cluster& cluster, const Background& background);
 
 /// A cluster as the independent clusters it consists of (mht/factors.h), without leaves and
 /// anchors that no hypothesis uses. Anchors keep their order; clusters stand in order of their

@@ -16,7 +16,10 @@ Json places_json(const ObjectBelief& object, const Background& background) {
   std::stable_sort(mass.begin(), mass.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   Json out = Json::array();
-  for (const auto& [p, i] : mass) out.push_back({{"place", places[i].name}, {"p", p}});
+  for (const auto& [p, i] : mass)
+    out.push_back({{"place", places[i].name},
+                   {"p", p},
+                   {"parent", place_json(places[i].parent, background)}});
   out.push_back({{"place", nullptr}, {"p", object.outside_places(background)}});
   return out;
 }

@@ -2,6 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+
 #include "lcmtypes/checked_decode.h"
 #include "lcmtypes/codec.h"
 
@@ -11,6 +15,7 @@ Journal::Journal(World world, std::unique_ptr<FrameLog> log, Statistics& statist
                  UpdateTimes& times, Hooks hooks)
     : world_(std::move(world)),
       durable_(world_),
+      background_(world_.background()),
       log_(std::move(log)),
       statistics_(statistics),
       times_(times),
@@ -21,6 +26,7 @@ Journal::~Journal() {
   {
     std::lock_guard lock(mutex_);
     ending_ = true;
+    ends_ = Clock::now() + kEnding;
   }
   wake_.notify_one();
   if (thread_.joinable()) thread_.join();
@@ -40,8 +46,9 @@ Status Journal::restore(const std::atomic<bool>& cancelled) {
     return folded.ok() && !cancelled;
   });
   if (!read) return read;
-  if (!folded) return folded;
+  if (!folded || cancelled) return folded;
   sequence_ = durable_sequence_ = log_->last_sequence();
+  restored_late_ = world_.late_frames();
   durable_ = world_;
   published_ = world_.belief();
   return Done{};
@@ -62,113 +69,131 @@ bool Journal::submit(Submission submission) {
   return true;
 }
 
-Snapshot Journal::snapshot() const { return {published_.load(), world_.background()}; }
-
 void Journal::run() {
   std::unique_lock lock(mutex_);
-  while (true) {
-    const auto deadline = batch_open_ ? batch_began_ + kBatch
-                                      : Clock::now() + std::chrono::milliseconds(500);
+  while (!ending_ || !queue_.empty() || batch_open_) {
+    const auto deadline =
+        batch_open_ ? batch_began_ + kBatch : Clock::now() + std::chrono::milliseconds(500);
     wake_.wait_until(lock, deadline, [&] { return ending_ || !queue_.empty(); });
     if (hooks_.alive) hooks_.alive();
     if (!queue_.empty()) {
       Submission submission = std::move(queue_.front());
       queue_.pop_front();
       waiting_ -= submission.frames.size();
+      const bool too_late = ending_ && Clock::now() >= ends_;
       lock.unlock();
-      take(std::move(submission));
+      if (too_late)
+        refuse(submission, nullptr,
+               {ErrorCode::kUnavailable, "", "the daemon ends; send this again later"});
+      else
+        take(std::move(submission));
       lock.lock();
     }
-    if (batch_open_ && (Clock::now() >= batch_began_ + kBatch || (ending_ && queue_.empty()))) {
+    if (commit_is_due()) {
       lock.unlock();
       commit();
       lock.lock();
     }
-    if (ending_ && queue_.empty() && !batch_open_) return;
   }
 }
 
-void Journal::take(Submission submission) {
-  auto receipt = apply(submission);
-  if (!receipt) return refuse(submission, receipt.error());
-  if (!batch_open_) {  // nothing of it needs to be made durable
-    if (submission.done) submission.done(*receipt);
-    statistics_.repeated += receipt->repeated;
-    return;
-  }
-  pending_.push_back({std::move(submission), *receipt});
+bool Journal::commit_is_due() const {
+  if (!batch_open_) return false;
+  return Clock::now() >= batch_began_ + kBatch || (queue_.empty() && (awaited_ || ending_));
 }
 
 /// All frames of the submission or none.
-Result<Receipt> Journal::apply(const Submission& submission) {
-  Receipt receipt;
-  std::vector<const Frame*> applied;
+void Journal::take(Submission submission) {
   std::optional<World> before;  // only several frames can fail half-way
   if (submission.frames.size() > 1) before = world_;
+  std::vector<Folded> folded;
   for (std::size_t i = 0; i < submission.frames.size(); ++i) {
-    const Frame& frame = submission.frames[i];
-    auto fresh = apply(frame);
-    if (!fresh) {
-      if (before) world_ = std::move(*before);
-      publish();
-      refused_frame_ = &frame;
-      Error error = fresh.error();
-      if (submission.array) error.field = "[" + std::to_string(i) + "]." + error.field;
-      return error;
-    }
-    if (*fresh)
-      applied.push_back(&frame);
-    else
-      ++receipt.repeated;
+    const Status done = fold(submission.frames[i], folded);
+    if (done) continue;
+    if (before) world_ = *std::move(before);
+    Error why = done.error();
+    if (submission.array)
+      why.field = "[" + std::to_string(i) + "]" + (why.field.empty() ? "" : ".") + why.field;
+    return refuse(submission, &submission.frames[i], why);
   }
-  for (const Frame* frame : applied)
-    if (Status logged = append(*frame); !logged) {
-      roll_back(logged.error());
-      return logged.error();
-    }
-  receipt.accepted = applied.size();
-  return receipt;
+  if (Status logged = append(folded); !logged) {
+    roll_back(logged.error());
+    return refuse(submission, nullptr, logged.error());
+  }
+  for (const Folded& one : folded) publish(one.after);
+
+  const Receipt receipt{folded.size(), submission.frames.size() - folded.size()};
+  if (!batch_open_) {  // all of it is durable already
+    statistics_.repeated += receipt.repeated;
+    if (submission.done) submission.done(receipt);
+    return;
+  }
+  awaited_ = awaited_ || submission.done;
+  pending_.push_back({std::move(submission), receipt});
 }
 
-/// True if the frame was applied, false if it is in the log already.
-Result<bool> Journal::apply(const Frame& frame) {
+/// Adds to `folded` unless the frame is in the log, or there, already.
+Status Journal::fold(const Frame& frame, std::vector<Folded>& folded) {
+  LoggedFrame logged{0, frame.utime, frame.robot, frame.sensor, canonical_bytes(frame)};
   if (const auto newest = world_.newest(frame); newest && frame.utime <= *newest) {
-    const auto presence =
-        log_->contains(frame.robot, frame.sensor, frame.utime, canonical_bytes(frame));
-    if (!presence) return presence.error();
-    if (*presence == FrameLog::Presence::kSame) return false;
-    if (*presence == FrameLog::Presence::kDifferent)
-      return Error{ErrorCode::kConflict, "utime",
-                   "this sensor has reported another frame with this utime"};
+    const auto again = repeated(logged, folded);
+    if (!again) return again.error();
+    if (*again) return Done{};
   }
+  // What is folded is what a restart will read, to the bit; and what it could not is refused.
+  const auto message = decode_frame(logged.bytes);
+  if (!message) return message.error();
   const auto begin = Clock::now();
-  if (Status applied = world_.apply(frame); !applied) return applied.error();
+  if (Status applied = world_.apply(message->frame); !applied) return applied;
   times_.add(std::chrono::duration<double>(Clock::now() - begin).count());
-  publish();
-  return true;
+  folded.push_back({std::move(logged), world_.belief()});
+  return Done{};
 }
 
-Status Journal::append(const Frame& frame) {
-  if (!batch_open_) {
-    batch_open_ = true;
-    batch_began_ = Clock::now();
+/// Whether the log, or `folded`, has the frame; kConflict if it has another in its place.
+Result<bool> Journal::repeated(const LoggedFrame& frame, const std::vector<Folded>& folded) {
+  auto presence = FrameLog::Presence::kNo;
+  const auto same_time = std::find_if(folded.begin(), folded.end(), [&](const Folded& one) {
+    return one.frame.utime == frame.utime && one.frame.sensor == frame.sensor &&
+           one.frame.robot == frame.robot;
+  });
+  if (same_time != folded.end()) {
+    presence = same_time->frame.bytes == frame.bytes ? FrameLog::Presence::kSame
+                                                     : FrameLog::Presence::kDifferent;
+  } else {
+    const auto logged = log_->contains(frame.robot, frame.sensor, frame.utime, frame.bytes);
+    if (!logged) return logged.error();
+    presence = *logged;
   }
-  return log_->append({++sequence_, frame.utime, frame.robot, frame.sensor,
-                       canonical_bytes(frame)});
+  if (presence == FrameLog::Presence::kDifferent)
+    return Error{ErrorCode::kConflict, "utime",
+                 "this sensor has reported another frame with this utime"};
+  return presence == FrameLog::Presence::kSame;
+}
+
+Status Journal::append(const std::vector<Folded>& folded) {
+  if (folded.empty()) return Done{};
+  if (!std::exchange(batch_open_, true)) batch_began_ = Clock::now();
+  for (const Folded& one : folded) {
+    LoggedFrame frame = one.frame;
+    frame.sequence = ++sequence_;
+    if (Status logged = log_->append(frame); !logged) return logged;
+  }
+  return Done{};
 }
 
 void Journal::commit() {
-  batch_open_ = false;
   if (Status done = log_->commit(); !done) return roll_back(done.error());
-  ++statistics_.commits;
+  batch_open_ = awaited_ = false;
   durable_ = world_;
   durable_sequence_ = sequence_;
+  ++statistics_.commits;
+  statistics_.late = world_.late_frames() - restored_late_;
   for (Pending& pending : std::exchange(pending_, {})) {
     statistics_.accepted += pending.receipt.accepted;
     statistics_.repeated += pending.receipt.repeated;
     if (pending.submission.done) pending.submission.done(pending.receipt);
   }
-  statistics_.late = world_.late_frames();
 }
 
 /// The batch cannot be kept: the belief goes back to the last one that is durable.
@@ -176,24 +201,23 @@ void Journal::roll_back(const Error& why) {
   spdlog::error("frames could not be made durable and are refused: {}", why.text());
   log_->rollback();
   ++statistics_.commit_failures;
-  batch_open_ = false;
+  batch_open_ = awaited_ = false;
   world_ = durable_;
   sequence_ = durable_sequence_;
-  publish();
-  for (Pending& pending : std::exchange(pending_, {})) refuse(pending.submission, why);
+  publish(world_.belief());
+  for (Pending& pending : std::exchange(pending_, {})) refuse(pending.submission, nullptr, why);
 }
 
-void Journal::refuse(Submission& submission, const Error& why) {
+void Journal::refuse(Submission& submission, const Frame* frame, const Error& why) {
   statistics_.refused += submission.frames.size();
-  const Frame* frame = std::exchange(refused_frame_, nullptr);
   if (!frame && submission.frames.size() == 1) frame = &submission.frames.front();
   if (hooks_.refused) hooks_.refused(submission, frame, why);
   if (submission.done) submission.done(why);
 }
 
-void Journal::publish() {
-  published_ = world_.belief();
-  if (hooks_.applied) hooks_.applied(world_.belief());
+void Journal::publish(const std::shared_ptr<const Belief>& belief) {
+  published_ = belief;
+  if (hooks_.applied) hooks_.applied(belief);
 }
 
 }  // namespace anchord

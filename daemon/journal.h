@@ -22,7 +22,7 @@ namespace anchord {
 /// What became of a submission.
 struct Receipt {
   std::size_t accepted = 0;  ///< frames that were applied and are durable
-  std::size_t repeated = 0;  ///< frames that were in the log already
+  std::size_t repeated = 0;  ///< frames that are in the log, durable, from an earlier time
 };
 
 /// Frames that stand or fall together.
@@ -37,26 +37,32 @@ struct Submission {
 
 /// The one writer: folds submissions into the world, appends them to the frame log, commits in
 /// batches, and only then acknowledges. Its thread alone touches the world and the log; everyone
-/// else reads the immutable belief it publishes after each frame. If a batch cannot be made
+/// else reads the immutable belief it publishes after each submission. If a batch cannot be made
 /// durable, its frames are refused and the belief goes back to the last durable one.
 class Journal {
  public:
+  /// None may throw.
   struct Hooks {
-    /// After each applied frame, on the journal's thread.
+    /// After each applied frame, in their order, and when the belief goes back; on the journal's
+    /// thread.
     std::function<void(std::shared_ptr<const Belief>)> applied;
-    /// A refused frame (or the whole submission), on the journal's thread.
+    /// A refused submission, and the frame that is to blame if it is one; on the journal's thread.
     std::function<void(const Submission&, const Frame*, const Error&)> refused;
-    /// At least every half second while the journal lives.
+    /// At least every half second while the journal lives, and for each frame that is restored;
+    /// on the thread of restore() and on the journal's.
     std::function<void()> alive;
   };
-  /// Frames are committed at most this long after they were applied.
+  /// Frames are committed at most this long after they were applied; those that somebody waits for
+  /// as soon as nothing else is to be applied.
   static constexpr std::chrono::milliseconds kBatch{30};
   /// Frames that may wait; more are refused.
   static constexpr std::size_t kQueue = 4096;
+  /// How long frames that wait are still applied at the end; those left over are refused.
+  static constexpr std::chrono::milliseconds kEnding{500};
 
   Journal(World world, std::unique_ptr<FrameLog> log, Statistics& statistics, UpdateTimes& times,
           Hooks hooks);
-  /// Finishes what has been submitted, commits, ends.
+  /// Finishes what has been submitted, within kEnding, commits, ends.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -70,7 +76,7 @@ class Journal {
   bool submit(Submission submission);
 
   /// What to answer from. Safe from any thread.
-  Snapshot snapshot() const;
+  Snapshot snapshot() const { return {published_.load(), background_}; }
   std::int64_t logged_frames() const { return sequence_; }
 
  private:
@@ -79,35 +85,44 @@ class Journal {
     Submission submission;
     Receipt receipt;
   };
+  /// A frame that the world has taken and the log has not.
+  struct Folded {
+    LoggedFrame frame;
+    std::shared_ptr<const Belief> after;
+  };
   void run();
+  bool commit_is_due() const;
   void take(Submission submission);
-  Result<Receipt> apply(const Submission& submission);
-  Result<bool> apply(const Frame& frame);
-  Status append(const Frame& frame);
+  Status fold(const Frame& frame, std::vector<Folded>& folded);
+  Result<bool> repeated(const LoggedFrame& frame, const std::vector<Folded>& folded);
+  Status append(const std::vector<Folded>& folded);
   void commit();
   void roll_back(const Error& why);
-  void refuse(Submission& submission, const Error& why);
-  void publish();
+  void refuse(Submission& submission, const Frame* frame, const Error& why);
+  void publish(const std::shared_ptr<const Belief>& belief);
 
   World world_, durable_;
+  const std::shared_ptr<const Background> background_;
   std::unique_ptr<FrameLog> log_;
   Statistics& statistics_;
   UpdateTimes& times_;
   Hooks hooks_;
   std::atomic<std::int64_t> sequence_{0};
   std::int64_t durable_sequence_ = 0;
+  std::uint64_t restored_late_ = 0;  ///< late frames before the start
   std::vector<Pending> pending_;
   Clock::time_point batch_began_;
   bool batch_open_ = false;
-  const Frame* refused_frame_ = nullptr;
+  bool awaited_ = false;  ///< somebody waits for the open batch
 
   std::atomic<std::shared_ptr<const Belief>> published_;
 
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<Submission> queue_;
-  std::size_t waiting_ = 0;  ///< frames in the queue
+  std::deque<Submission> queue_;  // guarded by mutex_, as all below
+  std::size_t waiting_ = 0;       ///< frames in the queue
   bool ending_ = false;
+  Clock::time_point ends_;  ///< when what waits is refused
   std::thread thread_;
 };
 

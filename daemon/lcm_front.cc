@@ -2,19 +2,18 @@
 
 #include <spdlog/spdlog.h>
 
-#include <anchord/answer_t.hpp>
-#include <anchord/rejected_t.hpp>
 #include <chrono>
+#include <utility>
 
+#include "api/replies.h"
 #include "api/world_message.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/checked_decode.h"
-#include "lcmtypes/codec.h"
 
 namespace anchord {
 namespace {
 
-constexpr std::size_t kWorldsWaiting = 256, kQuestionsWaiting = 64;
+constexpr std::size_t kWorldsWaiting = 256, kRefusalsWaiting = 256, kQuestionsWaiting = 64;
 
 Utime now() {
   return std::chrono::duration_cast<std::chrono::microseconds>(
@@ -28,6 +27,7 @@ LcmFront::LcmFront(std::unique_ptr<LcmBus> bus, Statistics& statistics)
     : bus_(std::move(bus)),
       statistics_(statistics),
       publisher_(kWorldsWaiting),
+      refusals_(kRefusalsWaiting),
       questions_(kQuestionsWaiting) {}
 
 Status LcmFront::start(Journal& journal, Answerer answerer) {
@@ -35,16 +35,18 @@ Status LcmFront::start(Journal& journal, Answerer answerer) {
                                  [this, &journal](auto bytes) { receive_frame(bytes, journal); });
       !s)
     return s;
-  if (Status s = bus_->subscribe(
-          kQueryChannel,
-          [this, ask = std::move(answerer)](auto bytes) { receive_query(bytes, ask); });
+  if (Status s = bus_->subscribe(kQueryChannel, [this, ask = std::move(answerer)](
+                                                    auto bytes) { receive_query(bytes, ask); });
       !s)
     return s;
   bus_->start();
   return Done{};
 }
 
-void LcmFront::stop() { bus_->stop(); }
+void LcmFront::stop() {
+  bus_->stop();
+  questions_.stop();
+}
 
 void LcmFront::receive_frame(std::span<const std::uint8_t> bytes, Journal& journal) {
   ++statistics_.received_lcm;
@@ -56,26 +58,24 @@ void LcmFront::receive_frame(std::span<const std::uint8_t> bytes, Journal& journ
     return;
   }
   statistics_.lost += gaps_.missing(message->frame.robot, message->frame.sensor, message->seq);
-  Submission submission{{std::move(message->frame)}, kDetectionsChannel, false, {}};
-  const Frame kept = submission.frames.front();
-  if (journal.submit(std::move(submission))) return;
+  Frame name;  // what tells of the frame once it has been handed on
+  name.utime = message->frame.utime;
+  name.sensor = message->frame.sensor;
+  if (journal.submit({{std::move(message->frame)}, kDetectionsChannel, false, {}})) return;
   ++statistics_.overrun;
-  publish_refusal(kDetectionsChannel, &kept,
+  publish_refusal(kDetectionsChannel, &name,
                   {ErrorCode::kUnavailable, "", "too many frames wait to be applied"});
 }
 
 void LcmFront::receive_query(std::span<const std::uint8_t> bytes, const Answerer& answerer) {
   auto query = decode_query(bytes);
   if (!query) {
+    ++statistics_.refused_lcm;
     publish_refusal(kQueryChannel, nullptr, query.error());
     return;
   }
   const auto reply = [this](std::int64_t id, const HttpResponse& response) {
-    answer_t out{};
-    out.id = id;
-    out.status = response.status;
-    out.json = response.body;
-    send(kAnswerChannel, encode_message(out));
+    send(kAnswerChannel, encode_answer(id, response));
   };
   const std::int64_t id = query->id;
   const bool taken = questions_.post([this, reply, answerer, asked = std::move(*query)] {
@@ -88,26 +88,18 @@ void LcmFront::receive_query(std::span<const std::uint8_t> bytes, const Answerer
 
 void LcmFront::publish_world(std::shared_ptr<const Belief> belief,
                              std::shared_ptr<const Background> background) {
-  const std::int64_t number = ++worlds_;  // a world that is left out shows as a gap
+  const std::int64_t number = ++worlds_;
   publisher_.post([this, number, belief = std::move(belief), background = std::move(background)] {
     send(kWorldChannel, encode_world(*belief, *background, number));
   });
 }
 
 void LcmFront::publish_refusal(const std::string& origin, const Frame* frame, const Error& why) {
-  rejected_t out{};
-  out.utime = now();
-  out.channel = origin;
-  if (frame) {
-    out.sensor = frame->sensor;
-    out.frame_utime = frame->utime;
-  }
-  out.field = why.field;
-  out.reason = why.message;
-  send(kRejectedChannel, encode_message(out));
+  refusals_.post(
+      [this, bytes = encode_refusal(origin, frame, why, now())] { send(kRejectedChannel, bytes); });
 }
 
-void LcmFront::send(const char* channel, std::span<const std::uint8_t> bytes) {
+void LcmFront::send(const char* channel, const std::vector<std::uint8_t>& bytes) {
   if (Status sent = bus_->publish(channel, bytes); !sent)
     spdlog::warn("{} could not be published: {}", channel, sent.error().text());
   else

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "api/http_message.h"
 #include "api/lcm_bus.h"
@@ -24,13 +27,15 @@ class LcmFront {
   LcmFront& operator=(const LcmFront&) = delete;
 
   Status start(Journal& journal, Answerer answerer);
-  /// Receives no more.
+  /// Receives no more, and answers the questions that wait; the journal may go then.
   void stop();
 
-  /// Publishes the best world of a belief, on the front's own thread. Safe from any thread.
+  /// Publishes the best world of a belief, on a thread of the front's own. Where that thread is far
+  /// behind, a world is left out, which shows as a gap in `seq`. One thread at a time.
   void publish_world(std::shared_ptr<const Belief> belief,
                      std::shared_ptr<const Background> background);
-  /// Publishes a refusal on ANCHORD_REJECTED. `frame` is null if it could not be read.
+  /// Publishes a refusal on ANCHORD_REJECTED, on another thread, unless very many wait there.
+  /// `frame` is null if it could not be read. Safe from any thread.
   void publish_refusal(const std::string& origin, const Frame* frame, const Error& why);
 
   const std::string& url() const { return bus_->url(); }
@@ -38,13 +43,13 @@ class LcmFront {
  private:
   void receive_frame(std::span<const std::uint8_t> bytes, Journal& journal);
   void receive_query(std::span<const std::uint8_t> bytes, const Answerer& answerer);
-  void send(const char* channel, std::span<const std::uint8_t> bytes);
+  void send(const char* channel, const std::vector<std::uint8_t>& bytes);
 
   std::unique_ptr<LcmBus> bus_;
   Statistics& statistics_;
-  SequenceGaps gaps_;           // of the bus' thread
-  std::int64_t worlds_ = 0;     // of the publisher
-  Worker publisher_, questions_;  // end before the bus does
+  SequenceGaps gaps_;                        // of the bus' thread
+  std::int64_t worlds_ = 0;                  // of the thread that calls publish_world()
+  Worker publisher_, refusals_, questions_;  // end before the bus does
 };
 
 }  // namespace anchord

@@ -8,7 +8,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
+#include <exception>
 #include <thread>
 
 #include "daemon/service.h"
@@ -27,12 +27,42 @@ int fail(const std::string& message) {
 void await_end(const sigset_t& signals) {
   int signal = 0;
   sigwait(&signals, &signal);
-  spdlog::info("ends: {}", strsignal(signal));
+}
+
+/// Serves until a signal ends it; the belief is restored meanwhile, so that one ends that too.
+int serve(const anchord::Knowledge& knowledge, const anchord::ServiceOptions& options) {
+  // Before any thread is started, so that all of them inherit it.
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+
+  auto service = anchord::Service::open(knowledge, options);
+  if (!service) return fail(service.error().text());
+  std::atomic<bool> cancelled{false};
+  anchord::Status started = anchord::Done{};
+  std::thread starter([&] {
+    try {
+      started = (*service)->start(cancelled);
+    } catch (const std::exception& error) {
+      started = anchord::Error{anchord::ErrorCode::kIo, "", error.what()};
+    }
+    if (!started) kill(getpid(), SIGTERM);
+  });
+  await_end(signals);
+  cancelled = true;
+  starter.join();
+  if (!started) return fail(started.error().text());
+  spdlog::info("ends");
+  (*service)->stop();
+  return 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app{"The semantic world model of a robot: detections in, beliefs out."};
   std::string config = ANCHORD_CONFIG;
   anchord::ServiceOptions options;
@@ -56,29 +86,7 @@ int main(int argc, char** argv) {
     return kWrongCall;
   }
 
-  // Before any thread is started, so that all of them inherit it.
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, SIGINT);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);
-
-  auto service = anchord::Service::open(configuration.knowledge(), options);
-  if (!service) return fail(service.error().text());
-  std::atomic<bool> cancelled{false}, failed{false};
-  anchord::Status started = anchord::Done{};
-  std::thread starter([&] {
-    started = (*service)->start(cancelled);
-    if (!started) {
-      failed = true;
-      kill(getpid(), SIGTERM);
-    }
-  });
-  await_end(signals);
-  cancelled = true;
-  starter.join();
-  if (failed) return fail(started.error().text());
-  (*service)->stop();
-  return 0;
+  return serve(configuration.knowledge(), options);
+} catch (const std::exception& error) {
+  return fail(error.what());
 }

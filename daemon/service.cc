@@ -8,15 +8,15 @@
 namespace anchord {
 namespace {
 
+constexpr std::chrono::milliseconds kDrain{500};  // for requests that have begun
+
 double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge,
-                                               const ServiceOptions& options) {
+Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge, const ServiceOptions& options) {
   auto log = FrameLog::open(options.data_directory);
   if (!log) return log.error();
   auto bus = LcmBus::open(options.lcm_url);
@@ -24,10 +24,13 @@ Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge,
   std::unique_ptr<Service> service(
       new Service(std::move(knowledge), options, std::move(*log), std::move(*bus)));
   auto http = HttpServer::start(
-      options.http_address,
-      http_routes(*service->journal_, service->ready_, service->statistics_, service->self()));
+      options.http_address, http_routes(*service->journal_, service->ready_, service->statistics_,
+                                        service->self(), [&lcm = *service->lcm_](const Error& why) {
+                                          lcm.publish_refusal(kHttpOrigin, nullptr, why);
+                                        }));
   if (!http) return http.error();
   service->http_ = std::move(*http);
+  service->listening_ = service->http_.get();
   return service;
 }
 
@@ -41,13 +44,14 @@ Service::Service(Knowledge knowledge, const ServiceOptions& options, std::unique
     lcm_->publish_world(std::move(belief), background);
   };
   hooks.refused = [this](const Submission& submission, const Frame* frame, const Error& why) {
-    if (submission.origin != "HTTP") ++statistics_.refused_lcm;
+    if (submission.origin != kHttpOrigin) ++statistics_.refused_lcm;
     lcm_->publish_refusal(submission.origin, frame, why);
   };
-  hooks.alive = [last = 0.0]() mutable {
+  hooks.alive = [this, last = 0.0]() mutable {
     if (seconds() - last < 0.5) return;
     last = seconds();
-    sd_notify(0, "WATCHDOG=1");
+    // While a long history is restored the start may take as long as it goes on.
+    sd_notify(0, ready_ ? "WATCHDOG=1" : "WATCHDOG=1\nEXTEND_TIMEOUT_USEC=60000000");
   };
   journal_ = std::make_unique<Journal>(std::move(world), std::move(log), statistics_, times_,
                                        std::move(hooks));
@@ -76,23 +80,26 @@ Status Service::start(const std::atomic<bool>& cancelled) {
 void Service::stop() {
   if (!journal_) return;
   sd_notify(0, "STOPPING=1");
-  lcm_->stop();
   ready_ = false;
-  if (http_) http_->stop(std::chrono::milliseconds(1000));
+  lcm_->stop();
+  if (http_) http_->stop(kDrain);
+  listening_ = nullptr;
   http_.reset();
   journal_.reset();  // applies and commits what waits
-  lcm_.reset();
+  lcm_.reset();      // after it has published what came of that
 }
 
 SelfDescription Service::self() {
-  return {[this] { return status_answer(sources()); }, [this] { return metrics_answer(sources()); }};
+  return {[this] { return status_answer(sources()); },
+          [this] { return metrics_answer(sources()); }};
 }
 
 StatusSources Service::sources() const {
   std::string address = options_.http_address;
-  if (http_) address = address.substr(0, address.rfind(':') + 1) + std::to_string(http_->port());
-  return {statistics_, times_,  *journal_, http_.get(),       options_.data_directory,
-          lcm_->url(), address, ready_,    seconds() - began_};
+  const HttpServer* http = listening_;
+  if (http) address = address.substr(0, address.rfind(':') + 1) + std::to_string(http->port());
+  return {statistics_, times_, *journal_,         http, options_.data_directory, lcm_->url(),
+          address,     ready_, seconds() - began_};
 }
 
 }  // namespace anchord

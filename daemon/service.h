@@ -32,10 +32,8 @@ class Service {
   /// true at any time.
   Status start(const std::atomic<bool>& cancelled);
 
-  /// Receives no more, finishes what has begun, commits.
+  /// Receives no more, finishes what has begun as far as that goes in a second, commits.
   void stop();
-
-  std::uint16_t http_port() const { return http_->port(); }
 
  private:
   Service(Knowledge knowledge, const ServiceOptions& options, std::unique_ptr<FrameLog> log,
@@ -51,6 +49,7 @@ class Service {
   std::unique_ptr<LcmFront> lcm_;
   std::unique_ptr<Journal> journal_;
   std::unique_ptr<HttpServer> http_;
+  std::atomic<HttpServer*> listening_{nullptr};  ///< http_, for those whom it serves
 };
 
 }  // namespace anchord

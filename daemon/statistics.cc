@@ -1,6 +1,7 @@
 #include "daemon/statistics.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace anchord {
 
@@ -17,9 +18,8 @@ UpdateTimes::Summary UpdateTimes::summary() const {
     std::lock_guard lock(mutex_);
     out.count = count_;
     out.sum_s = sum_;
-    sorted.assign(latest_.begin(),
-                  latest_.begin() + static_cast<long>(std::min<std::uint64_t>(count_,
-                                                                              latest_.size())));
+    sorted.assign(latest_.begin(), latest_.begin() + static_cast<long>(std::min<std::uint64_t>(
+                                                         count_, latest_.size())));
   }
   if (sorted.empty()) return out;
   std::sort(sorted.begin(), sorted.end());
@@ -35,6 +35,7 @@ UpdateTimes::Summary UpdateTimes::summary() const {
 std::uint64_t SequenceGaps::missing(const std::string& robot, const std::string& sensor,
                                     std::int64_t seq) {
   if (seq <= 0) return 0;
+  if (last_.size() >= kSensors) last_.clear();
   // A sensor that has not been heard before is not known to have begun at 1.
   const auto [it, first] = last_.try_emplace({robot, sensor}, seq);
   const std::int64_t before = std::exchange(it->second, seq);

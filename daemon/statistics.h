@@ -16,10 +16,11 @@ struct Statistics {
   std::atomic<std::uint64_t> accepted{0};  ///< frames applied
   std::atomic<std::uint64_t> repeated{0};  ///< frames that were in the log already
   std::atomic<std::uint64_t> refused{0};   ///< frames, from anywhere
-  std::atomic<std::uint64_t> refused_lcm{0};  ///< of those, messages that came over LCM
-  std::atomic<std::uint64_t> overrun{0};   ///< frames dropped because too many waited
-  std::atomic<std::uint64_t> late{0};      ///< frames put in place behind newer ones
-  std::atomic<std::uint64_t> lost{0};      ///< gaps in the numbering of LCM publishers
+  std::atomic<std::uint64_t> refused_lcm{
+      0};                                 ///< messages over LCM: frames (of those) and questions
+  std::atomic<std::uint64_t> overrun{0};  ///< frames dropped because too many waited
+  std::atomic<std::uint64_t> late{0};     ///< frames put in place behind newer ones
+  std::atomic<std::uint64_t> lost{0};     ///< gaps in the numbering of LCM publishers
   std::atomic<std::uint64_t> received_lcm{0};   ///< frames that came over LCM
   std::atomic<std::uint64_t> published_lcm{0};  ///< messages sent
   std::atomic<std::uint64_t> commits{0}, commit_failures{0};
@@ -44,7 +45,7 @@ class UpdateTimes {
   double sum_ = 0;
 };
 
-/// Counts what is missing in the numbers that publishers give their frames.
+/// Counts what is missing in the numbers that publishers give their frames. One thread at a time.
 class SequenceGaps {
  public:
   /// How many frames of that sensor went missing before this one; 0 for an unnumbered one (seq 0)
@@ -52,6 +53,7 @@ class SequenceGaps {
   std::uint64_t missing(const std::string& robot, const std::string& sensor, std::int64_t seq);
 
  private:
+  static constexpr std::size_t kSensors = 4096;  ///< remembered; names are anybody's to invent
   std::map<std::pair<std::string, std::string>, std::int64_t> last_;
 };
 

@@ -26,12 +26,15 @@ BeliefSize size_of(const Belief& belief) {
   return size;
 }
 
+/// 0 where it cannot be read.
 std::uintmax_t bytes_in(const std::string& directory) {
   std::uintmax_t sum = 0;
   std::error_code error;
-  for (const auto& file : std::filesystem::directory_iterator(directory, error)) {
-    const auto bytes = file.file_size(error);
-    if (!error) sum += bytes;
+  for (std::filesystem::directory_iterator file(directory, error), end; !error && file != end;
+       file.increment(error)) {
+    std::error_code gone;  // SQLite removes files at any time
+    const auto bytes = file->file_size(gone);
+    if (!gone) sum += bytes;
   }
   return sum;
 }
@@ -41,8 +44,8 @@ class Metrics {
  public:
   template <typename Number>
   void add(const char* name, const char* type, const char* help, Number value) {
-    text_ += std::string("# HELP anchord_") + name + " " + help + "\n# TYPE anchord_" + name +
-             " " + type + "\nanchord_" + name + " " + Json(value).dump() + "\n";
+    text_ += std::string("# HELP anchord_") + name + " " + help + "\n# TYPE anchord_" + name + " " +
+             type + "\nanchord_" + name + " " + Json(value).dump() + "\n";
   }
   std::string text() && { return std::move(text_); }
 
@@ -57,10 +60,16 @@ HttpResponse status_answer(const StatusSources& from) {
   const BeliefSize size = size_of(*belief);
   const Statistics& s = from.statistics;
   const auto times = from.times.summary();
-  Json out{{"version", ANCHORD_VERSION}, {"ready", from.ready},     {"utime", belief->utime},
-           {"uptime_s", from.uptime_s},  {"objects", size.objects}, {"anchors", size.anchors},
-           {"expected_count", size.expected}, {"hypotheses", size.hypotheses},
-           {"clusters", belief->clusters.size()}, {"dropped_probability", belief->dropped}};
+  Json out{{"version", ANCHORD_VERSION},
+           {"ready", from.ready},
+           {"utime", belief->utime},
+           {"uptime_s", from.uptime_s},
+           {"objects", size.objects},
+           {"anchors", size.anchors},
+           {"expected_count", size.expected},
+           {"hypotheses", size.hypotheses},
+           {"clusters", belief->clusters.size()},
+           {"dropped_probability", belief->dropped}};
   out["frames"] = {{"accepted", s.accepted.load()}, {"repeated", s.repeated.load()},
                    {"refused", s.refused.load()},   {"overrun", s.overrun.load()},
                    {"late", s.late.load()},         {"lost", s.lost.load()}};
@@ -80,6 +89,7 @@ HttpResponse status_answer(const StatusSources& from) {
     out["http"]["connections"] = http.open.load();
     out["http"]["requests"] = http.requests.load();
     out["http"]["refused"] = http.refused.load();
+    out["http"]["client_errors"] = http.responses[4].load();
     out["http"]["timeouts"] = http.request_timeouts.load() + http.write_timeouts.load();
   }
   return {200, "application/json", out.dump() + "\n", {}};
@@ -99,6 +109,7 @@ HttpResponse metrics_answer(const StatusSources& from) {
   out.add("frames_late_total", "counter", "frames put in place behind newer ones", s.late.load());
   out.add("frames_lost_total", "counter", "gaps in publishers' numbering", s.lost.load());
   out.add("lcm_frames_received_total", "counter", "frames over LCM", s.received_lcm.load());
+  out.add("lcm_refused_total", "counter", "messages over LCM refused", s.refused_lcm.load());
   out.add("lcm_published_total", "counter", "messages sent over LCM", s.published_lcm.load());
   out.add("log_commits_total", "counter", "batches made durable", s.commits.load());
   out.add("log_failures_total", "counter", "batches that failed", s.commit_failures.load());
@@ -117,6 +128,10 @@ HttpResponse metrics_answer(const StatusSources& from) {
     out.add("http_connections", "gauge", "open connections", http.open.load());
     out.add("http_requests_total", "counter", "requests read whole", http.requests.load());
     out.add("http_refused_total", "counter", "connections over the limit", http.refused.load());
+    out.add("http_client_errors_total", "counter", "answers with status 4xx",
+            http.responses[4].load());
+    out.add("http_timeouts_total", "counter", "clients that were too slow",
+            http.request_timeouts.load() + http.write_timeouts.load());
   }
   return {200, "text/plain; version=0.0.4", std::move(out).text(), {}};
 }

@@ -12,13 +12,16 @@ namespace anchord {
 class Worker {
  public:
   explicit Worker(std::size_t capacity);
-  /// Does what waits, then ends.
+  /// stop().
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// False if too many wait: the task is not done then. Safe from any thread.
+  /// False if too many wait, or after stop(): the task is not done then. Safe from any thread.
   bool post(std::function<void()> task);
+
+  /// Does what waits, then ends for good. Not from a task.
+  void stop();
 
  private:
   void run();

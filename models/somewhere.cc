@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "geometry/gaussian_mass.h"
 
@@ -11,16 +12,16 @@ namespace {
 
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// The part of a polygon on one side of an axis-parallel line (Sutherland and Hodgman 1974).
-Polygon clipped(const Polygon& polygon, int axis, double bound, bool keep_above) {
+/// The part of a polygon where a linear function is not negative (Sutherland and Hodgman 1974).
+/// What falls apart stays joined by edges that go there and back, which have no area.
+template <typename Function>
+Polygon clipped(const Polygon& polygon, const Function& height) {
   Polygon out;
-  const auto inside = [&](const Eigen::Vector2d& p) {
-    return keep_above ? p[axis] >= bound : p[axis] <= bound;
-  };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    if (inside(a)) out.push_back(a);
-    if (inside(a) != inside(b)) out.push_back(a + (bound - a[axis]) / (b[axis] - a[axis]) * (b - a));
+    const double at_a = height(a), at_b = height(b);
+    if (at_a >= 0) out.push_back(a);
+    if ((at_a >= 0) != (at_b >= 0)) out.push_back(a + at_a / (at_a - at_b) * (b - a));
   }
   return out;
 }
@@ -28,10 +29,40 @@ Polygon clipped(const Polygon& polygon, int axis, double bound, bool keep_above)
 double area_in(const Polygon& polygon, const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
   Polygon part = polygon;
   for (int axis = 0; axis < 2 && !part.empty(); ++axis) {
-    part = clipped(part, axis, min[axis], true);
-    part = clipped(part, axis, max[axis], false);
+    part = clipped(part, [&](const Eigen::Vector2d& p) { return p[axis] - min[axis]; });
+    part = clipped(part, [&](const Eigen::Vector2d& p) { return max[axis] - p[axis]; });
   }
   return part.size() < 3 ? 0.0 : Region{part}.area();
+}
+
+/// How far `p` lies to the left of the line from `a` to `b`, times its length.
+double left_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
+  return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+}
+
+/// The polygon counter-clockwise if it is convex, else nothing.
+Polygon as_convex(Polygon polygon) {
+  const std::size_t n = polygon.size();
+  bool left = false, right = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double turn = left_of(polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]);
+    left = left || turn > 0;
+    right = right || turn < 0;
+  }
+  if (left && right) return {};
+  if (right) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+/// What two polygons have in common, if one of them is convex.
+std::optional<Polygon> common_part(const Polygon& a, const Polygon& b) {
+  Polygon convex = as_convex(a), part = b;
+  if (convex.empty()) convex = as_convex(b), part = a;
+  if (convex.empty()) return std::nullopt;
+  for (std::size_t i = 0; i < convex.size() && !part.empty(); ++i)
+    part = clipped(part, [&, &from = convex[i], &to = convex[(i + 1) % convex.size()]](
+                             const Eigen::Vector2d& p) { return left_of(from, to, p); });
+  return part;
 }
 
 }  // namespace
@@ -70,12 +101,15 @@ std::vector<double> Footprint::overlap(const Region& other) const {
     height = std::max(0.0, high - low) / (region.z_max - region.z_min);
   }
   if (height == 0) return out;
-  const bool same = region.polygon == other.polygon;
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    out[i] = same ? height
-                  : height * area_in(other.polygon, grid.corner_min(cells[i]),
-                                     grid.corner_max(cells[i])) /
-                        (grid.cell * grid.cell);
+  const auto common = region.polygon == other.polygon ? std::optional(region.polygon)
+                                                      : common_part(region.polygon, other.polygon);
+  const double area = region.area();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Eigen::Vector3d low = grid.corner_min(cells[i]), high = grid.corner_max(cells[i]);
+    const double part = common ? area_in(*common, low, high) / (share[i] * area)
+                               : area_in(other.polygon, low, high) / (grid.cell * grid.cell);
+    out[i] = height * std::min(part, 1.0);
+  }
   return out;
 }
 
@@ -111,8 +145,8 @@ double Somewhere::likelihood(const Gaussian& z, double uniform) const {
   // The mean of the density's relative height around z, weighted by what lies in the place.
   constexpr double kQuantiles[5] = {-1.2815515655446, -0.5244005127080, 0, 0.5244005127080,
                                     1.2815515655446};  // of N(0, 1) at 0.1, 0.3, .. 0.9
-  const Eigen::Matrix2d root = Eigen::LLT<Eigen::Matrix2d>(z.covariance.topLeftCorner<2, 2>())
-                                   .matrixL();
+  const Eigen::Matrix2d root =
+      Eigen::LLT<Eigen::Matrix2d>(z.covariance.topLeftCorner<2, 2>()).matrixL();
   double sum = 0;
   int hits = 0;
   for (double a : kQuantiles)

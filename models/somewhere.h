@@ -26,8 +26,8 @@ struct Footprint {
   /// aligned to `world`.
   static Footprint of(const Region& region, const Grid& world, int dims);
 
-  /// Per cell the share of what lies in the region that lies in another region too: of its column
-  /// there, as if it filled the cell where the two polygons cut it differently.
+  /// Per cell the share of what lies in the region that lies in another region too. Where neither
+  /// polygon is convex, as if the region filled each of its cells.
   std::vector<double> overlap(const Region& other) const;
 
   /// Per cell the share of its column (between the region's heights) that is in view.

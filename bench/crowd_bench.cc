@@ -1,0 +1,89 @@
+// Like objects in a square: how long an update takes, and how often identities are confused.
+// Arguments: numbers of objects, instead of those that have a target.
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "anchoring/reading.h"
+#include "anchoring/world.h"
+#include "bench/crowd.h"
+#include "bench/identity.h"
+#include "bench/timing.h"
+
+namespace {
+
+using anchord::bench::fixed;
+
+constexpr double kRadius = 1;     // m
+constexpr int kFirstCounted = 8;  // frames before it are for finding the objects
+constexpr int kSeeds = 3;
+
+std::vector<anchord::bench::Track> best_world(const anchord::World& world) {
+  const anchord::Belief& belief = *world.belief();
+  std::vector<anchord::bench::Track> tracks;
+  for (const auto& object : anchord::read_objects(belief, belief.utime, 0.5, *world.background())) {
+    if (!object.in_best) continue;
+    const auto& position = anchord::position_of(object.versions[object.best].leaf).position;
+    tracks.push_back({object.anchor->birth, position.head<2>()});
+  }
+  return tracks;
+}
+
+std::string target(int objects) {
+  if (objects == 20) return "median < 0.5 ms, no switch";
+  if (objects == 80) return "median < 3 ms, at most 1 switch";
+  if (objects == 160) return "runs at all";
+  return "";
+}
+
+void run(int objects, std::uint64_t seed) {
+  anchord::bench::CrowdParameters parameters;
+  parameters.objects = objects;
+  const anchord::bench::Crowd crowd = anchord::bench::simulate(parameters, seed);
+  anchord::World world(anchord::bench::crowd_knowledge(parameters));
+  anchord::bench::IdentityCount count(kRadius);
+  anchord::bench::Times wall, cpu;
+  for (std::size_t k = 0; k < crowd.frames.size(); ++k) {
+    const anchord::bench::Stopwatch watch;
+    const anchord::Status applied = world.apply(crowd.frames[k]);
+    cpu.add(watch.cpu_ms());
+    wall.add(watch.wall_ms());
+    if (!applied) {
+      std::fprintf(stderr, "refused: %s\n", applied.error().text().c_str());
+      std::exit(EXIT_FAILURE);
+    }
+    if (k >= kFirstCounted) count.add(crowd.truth[k], best_world(world));
+  }
+  const auto percent = [&](long n) {
+    return fixed(100 * static_cast<double>(n) / static_cast<double>(count.objects), 2);
+  };
+  anchord::bench::print_row({std::to_string(objects), std::to_string(seed),
+                             fixed(wall.median_ms(), 3), fixed(wall.p99_ms(), 2),
+                             fixed(wall.max_ms(), 2), fixed(cpu.median_ms(), 3),
+                             fixed(cpu.p99_ms(), 2), std::to_string(count.switches),
+                             percent(count.misses), percent(count.strays), target(objects)});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<int> sizes;
+  for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
+  if (sizes.empty()) sizes = {20, 80, 160};
+  for (const int objects : sizes)
+    if (objects < 1) {
+      std::fprintf(stderr, "arguments: numbers of objects, each at least 1\n");
+      return 2;
+    }
+  const anchord::bench::CrowdParameters p;
+  std::printf("%g Hz, %g s, %g x %g m, noise %g m, p_D %g, one clutter detection per frame\n\n",
+              p.rate_hz, p.duration_s, p.side_m, p.side_m, p.noise_deviation,
+              p.detection_probability);
+  anchord::bench::print_head({"objects", "seed", "median ms", "p99 ms", "max ms", "median CPU ms",
+                              "p99 CPU ms", "switches", "missed %", "stray %", "target"});
+  for (const int objects : sizes)
+    for (int seed = 1; seed <= kSeeds; ++seed) run(objects, seed);
+  return EXIT_SUCCESS;
+}
