@@ -19,13 +19,17 @@ RankedAssociations::RankedAssociations(const AssociationProblem& problem, double
         best = std::max(best, problem.gain[leaf * problem.detections + z]);
       bound += best;
     }
-    push({bound, 0, static_cast<int>(p), false, -1, Assignment(0, 0), {}, {}});
+    push({bound, static_cast<int>(p), false, -1, Assignment(0, 0), {}, {}});
   }
 }
 
 void RankedAssociations::push(Node node) {
-  node.order = created_++;
-  heap_.push_back(std::move(node));
+  enter({node.bound, nodes_.size()});
+  nodes_.push_back(std::move(node));
+}
+
+void RankedAssociations::enter(Entry entry) {
+  heap_.push_back(entry);
   std::push_heap(heap_.begin(), heap_.end());
 }
 
@@ -71,7 +75,7 @@ void RankedAssociations::branch(const Node& node) {
     if (fixed[z]) continue;
     const double loss = node.assignment.least_loss(z, scratch_);
     if (node.bound - loss > least_bound_) {
-      Node child{node.bound - loss, 0, node.parent, false, z, node.assignment, fixed, {}};
+      Node child{node.bound - loss, node.parent, false, z, node.assignment, fixed, {}};
       for (int entry : node.banned)
         if (!fixed[entry / width]) child.banned.push_back(entry);
       child.banned.push_back(z * width + node.assignment.choice(z));
@@ -84,14 +88,13 @@ void RankedAssociations::branch(const Node& node) {
 std::optional<Association> RankedAssociations::next() {
   while (!heap_.empty()) {
     std::pop_heap(heap_.begin(), heap_.end());
-    Node node = std::move(heap_.back());
+    const std::size_t index = heap_.back().node;
     heap_.pop_back();
+    Node& node = nodes_[index];  // a deque's elements stay where they are
     if (!node.solved) {
       if (!solve(node)) continue;
-      const bool still_best = heap_.empty() || node.bound >= heap_.front().bound;
-      if (!still_best) {
-        heap_.push_back(std::move(node));
-        std::push_heap(heap_.begin(), heap_.end());
+      if (!heap_.empty() && node.bound < heap_.front().bound) {
+        enter({node.bound, index});
         continue;
       }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -45,27 +46,32 @@ class RankedAssociations {
  private:
   struct Node {
     double bound;  // log weight, exact once solved
-    long order;    // of creation: breaks ties
     int parent;
     bool solved;
     int banned_row;                    // the row that must change, -1 for a root
     Assignment assignment;             // of the node it came from, until solved
     RowFlags fixed;           // rows that may not change
     boost::container::small_vector<int, 8> banned;           // entries of the cost matrix made infinite
-    bool operator<(const Node& other) const {
-      return bound != other.bound ? bound < other.bound : order > other.order;
+  };
+  /// A node's place in the heap.
+  struct Entry {
+    double bound;
+    std::size_t node;  // in order of creation: breaks ties
+    bool operator<(const Entry& other) const {
+      return bound != other.bound ? bound < other.bound : node > other.node;
     }
   };
   const std::vector<double>& costs_of(int parent);
   bool solve(Node& node);
   void branch(const Node& node);
   void push(Node node);
+  void enter(Entry entry);
 
   const AssociationProblem& problem_;
   std::vector<std::vector<double>> costs_;  // per parent, made when first needed
   std::vector<double> scratch_;
-  std::vector<Node> heap_;
-  long created_ = 0;
+  std::deque<Node> nodes_;
+  std::vector<Entry> heap_;
   double log_least_;
   double least_bound_ = kLogZero;  // of nodes worth keeping, once the best is known
 };

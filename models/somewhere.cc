@@ -177,10 +177,14 @@ void Somewhere::enter(double weight, double entering) {
 }
 
 void Somewhere::miss(double p, const std::vector<double>& visible) {
-  const double rest = 1 - p * mass(visible);
   auto next = std::make_shared<std::vector<double>>(visible.size());
-  for (std::size_t i = 0; i < visible.size(); ++i)
-    (*next)[i] = relative(i) * (1 - p * visible[i]) / rest;
+  // Summed, not 1 - p mass(visible): each miss would divide the rounding error of the sum by that.
+  double rest = 0;
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    (*next)[i] = relative(i) * (1 - p * visible[i]);
+    rest += footprint_->share[i] * (*next)[i];
+  }
+  for (double& height : *next) height /= rest;
   looked_at_ = std::move(next);
   weight_looked_ = 1;
 }
@@ -202,14 +206,19 @@ Gaussian Somewhere::moments() const {
   const Footprint& f = *footprint_;
   Gaussian g;
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  // About the middle of the grid: places may be far from the origin.
+  Eigen::Vector3d about = 0.5 * (f.grid.corner_min(0) + f.grid.corner_max(f.grid.size() - 1));
+  if (f.dims == 2) about.z() = 0;
   for (std::size_t i = 0; i < f.cells.size(); ++i) {
-    Eigen::Vector3d middle = 0.5 * (f.grid.corner_min(f.cells[i]) + f.grid.corner_max(f.cells[i]));
-    if (f.dims == 2) middle.z() = 0;
+    Eigen::Vector3d d =
+        0.5 * (f.grid.corner_min(f.cells[i]) + f.grid.corner_max(f.cells[i])) - about;
+    d.z() = 0;  // every column is as high as the place
     const double m = mass_in(static_cast<int>(i));
-    g.mean += m * middle;
-    second += m * middle * middle.transpose();
+    g.mean += m * d;
+    second += m * (d * d.transpose());
   }
   g.covariance = second - g.mean * g.mean.transpose();
+  g.mean += about;
   const double in_cell = f.grid.cell * f.grid.cell / 12;  // variance inside a cell
   g.covariance(0, 0) += in_cell;
   g.covariance(1, 1) += in_cell;

@@ -29,17 +29,22 @@ def main():
         sys.exit(f"refused: {error.get('field', '')} {error['message']}")
     except urllib.error.URLError as failure:
         sys.exit(f"no daemon at {SERVER}: {failure.reason}")
-    for found in answer["answers"]:
-        position = ", ".join(f"{x:.2f}" for x in found["position"])
-        best = found["places"][0]
-        print(
-            f"{found['object']}: exists {found['p']:.2f}, fits {found['match']:.2f}, "
-            f"at {position} m, {best['place'] or 'outside every place'} {best['p']:.2f}"
-        )
     if not answer["answers"]:
         print("nothing seen so far fits")
-    for unseen in answer["undetected"]:
-        print(f"not seen yet: {unseen['expected']:.2f} expected in {unseen['place']}")
+    for found in answer["answers"]:
+        position = ", ".join(f"{x:.2f}" for x in found["position"])
+        places = ", ".join(f"{p['place']} {p['p']:.2f}" for p in likely(found["places"], "p"))
+        print(
+            f"{found['object']}: exists {found['p']:.2f}, fits {found['match']:.2f}, "
+            f"at {position} m ({places or 'in no place'})"
+        )
+    for place in likely(answer["undetected"], "expected"):
+        print(f"not seen yet: {place['expected']:.2f} expected in {place['place']}")
+
+
+def likely(places, key, least=0.05):
+    """Those that are named and matter. Places nest: a table's share is part of its room's."""
+    return [place for place in places if place["place"] and place[key] >= least]
 
 
 if __name__ == "__main__":

@@ -43,7 +43,9 @@ struct ConstantPosition {
   }
   static void predict(State& s, double dt) { predict_constant_position(s, 0.02, dt, D); }
   static void observe(State& s, Dice& dice) {
-    update(s, random_measurement<D>(dice, 1e-12, 1e6), D);
+    // What a double can tell from a singular matrix: its axes differ by a factor of 1000 at most.
+    const double least = dice.scale(1e-12, 1);
+    update(s, random_measurement<D>(dice, least, 1e6 * least), D);
   }
   static State merged(double a, const State& x, double b, const State& y) {
     return merge(a, x, b, y);
