@@ -29,10 +29,9 @@ Tied tie(const std::vector<PredictedCluster>& clusters, const Limits& limits) {
       tied.anchors.push_back(c.cluster->anchors[a].anchor);
       for (const PredictedLeaf& leaf : c.leaves[a]) tied.leaves.push_back(&leaf);
     }
-    tied.hypotheses = tied.hypotheses.empty()
-                          ? c.cluster->hypotheses
-                          : join(tied.hypotheses, c.cluster->hypotheses, limits.max_hypotheses,
-                                 limits.min_weight);
+    tied.hypotheses = tied.hypotheses.empty() ? c.cluster->hypotheses
+                                              : join(tied.hypotheses, c.cluster->hypotheses,
+                                                     limits.max_hypotheses, limits.min_weight);
   }
   if (tied.hypotheses.empty()) tied.hypotheses.push_back({0.0, {}});
   return tied;
@@ -120,8 +119,8 @@ std::shared_ptr<const Leaf> birth(int z, const MapFrame& frame, const Origin& or
                                   std::uint64_t frame_number, const Background& background) {
   const Limits& limits = background.knowledge.limits;
   if (origin.existence <= 0 || origin.existence < limits.min_existence) return nullptr;
-  Leaf leaf = first_leaf(frame.detections[z], origin.terms, origin.existence, frame.utime,
-                         background);
+  Leaf leaf =
+      first_leaf(frame.detections[z], origin.terms, origin.existence, frame.utime, background);
   if (limits.scan_depth > 0) leaf.recent.push_back(frame_number << 16 | z);
   return std::make_shared<const Leaf>(std::move(leaf));
 }
@@ -130,6 +129,13 @@ std::shared_ptr<const Leaf> birth(int z, const MapFrame& frame, const Origin& or
 
 bool PredictedCluster::touched() const {
   return shown || stepped || std::find(gated.begin(), gated.end(), 1) != gated.end();
+}
+
+bool PredictedCluster::departed(double min_existence) const {
+  for (const auto& anchor : leaves)
+    for (const PredictedLeaf& predicted : anchor)
+      if (predicted.leaf.existence >= min_existence) return false;
+  return true;
 }
 
 std::vector<std::shared_ptr<const Cluster>> associate(
@@ -148,7 +154,8 @@ std::vector<std::shared_ptr<const Cluster>> associate(
     auto leaf = birth(detections[z], frame, origins[detections[z]], belief.frames, background);
     if (!leaf) continue;
     anchor_of[z] = static_cast<int>(joint.anchors.size());
-    auto anchor = std::make_shared<const Anchor>(Anchor{belief.births + detections[z] + 1, belief.frames, ""});
+    auto anchor = std::make_shared<const Anchor>(
+        Anchor{belief.births + detections[z] + 1, belief.frames, ""});
     joint.anchors.push_back({std::move(anchor), {std::move(leaf)}});
   }
 
@@ -172,8 +179,7 @@ std::vector<std::shared_ptr<const Cluster>> associate(
     const Hypothesis& parent = tied.hypotheses[next->parent];
     for (std::size_t a = 0, i = 0; a < old_anchors; ++a) {
       if (parent.leaf[a] == Hypothesis::kNoLeaf) continue;
-      h.leaf[a] =
-          children.of(tied.first_leaf[a] + parent.leaf[a], given[i++], joint.anchors[a]);
+      h.leaf[a] = children.of(tied.first_leaf[a] + parent.leaf[a], given[i++], joint.anchors[a]);
     }
     joint.hypotheses.push_back(std::move(h));
     if (limits.max_hypotheses > 0 &&

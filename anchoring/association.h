@@ -14,7 +14,7 @@ namespace anchord {
 struct PredictedLeaf {
   Leaf leaf;
   LeafVisibility shown;
-  double log_miss = 0;                   ///< ln(1 - r q)
+  double log_miss = 0;  ///< ln(1 - r q)
   /// What it is worth to give the leaf a detection: ln of that, over giving it nothing and the
   /// detection being new or clutter. Only detections that it may be given, ascending.
   struct Gain {
@@ -33,6 +33,8 @@ struct PredictedCluster {
   bool stepped = false;                            ///< must be carried along in any case
 
   bool touched() const;
+  /// Whether no leaf exists with at least this probability any more.
+  bool departed(double min_existence) const;
 };
 
 /// What a detection is worth without any anchor.
@@ -54,12 +56,14 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
 PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame& frame,
                          const std::vector<Origin>& origins, const Visibility& visibility,
                          const Background& background);
-/// Associates `detections` (indices into the frame) with clusters that they tie together: the
-/// clusters after the frame. Without clusters each detection starts one of its own. `births` are
-/// the numbers of the anchors that detections may start, per detection of the frame.
-std::vector<std::shared_ptr<const Cluster>> associate(
-    const std::vector<PredictedCluster>& clusters, const std::vector<int>& detections,
-    const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
-    const Background& background, Belief& belief);
+/// Associates `detections` (indices into the frame, ascending) with the clusters that they tie
+/// together: the clusters after the frame. Without clusters each detection starts one of its own.
+/// Reads the belief's counters and adds to what it has dropped.
+std::vector<std::shared_ptr<const Cluster>> associate(const std::vector<PredictedCluster>& clusters,
+                                                      const std::vector<int>& detections,
+                                                      const MapFrame& frame,
+                                                      const std::vector<Origin>& origins,
+                                                      const Visibility& visibility,
+                                                      const Background& background, Belief& belief);
 
 }  // namespace anchord

@@ -61,17 +61,14 @@ Background::Background(Knowledge k)
       dims(knowledge.dims),
       grid(Grid::over(knowledge.bounds_min, knowledge.bounds_max, knowledge.cell)),
       tiling(std::make_shared<Tiling>(grid)) {
-  footprints_.push_back(
-      std::make_shared<Footprint>(Footprint::of(knowledge.world(), grid, dims)));
+  footprints_.push_back(std::make_shared<Footprint>(Footprint::of(knowledge.world(), grid, dims)));
   for (const Place& place : knowledge.places)
-    footprints_.push_back(
-        std::make_shared<Footprint>(Footprint::of(place.region, grid, dims)));
+    footprints_.push_back(std::make_shared<Footprint>(Footprint::of(place.region, grid, dims)));
   compare_places();
   for (const ObjectClass& c : knowledge.classes) {
     dynamics.push_back(dynamics_of(c));
-    arrivals.push_back(std::make_shared<ArrivalModel>(
-        ArrivalModel{c.undetected_intensity, c.departure_rate, c.arrival_rate,
-                     concentrated(c, *this)}));
+    arrivals.push_back(std::make_shared<ArrivalModel>(ArrivalModel{
+        c.undetected_intensity, c.departure_rate, c.arrival_rate, concentrated(c, *this)}));
   }
   const double gate = knowledge.limits.gate_probability;
   gate_distance2 = gate < 1 ? boost::math::quantile(boost::math::chi_squared(dims), gate)

@@ -13,9 +13,9 @@ namespace anchord {
 
 /// One object that is believed to exist, whichever hypothesis leads: its identity for life.
 struct Anchor {
-  std::uint64_t birth = 0;  ///< counts anchors in order of birth (frame, then detection)
+  std::uint64_t birth = 0;        ///< counts anchors in order of birth (frame, then detection)
   std::uint64_t birth_frame = 0;  ///< number of the frame of its first detection
-  std::string name;         ///< `cup-12`; empty until it has p >= 0.5 or stands in a best world
+  std::string name;  ///< `cup-12`; empty until it has p >= 0.5 or stands in a best world
 
   /// The name, or `new-N` before it has one.
   std::string id() const { return name.empty() ? "new-" + std::to_string(birth) : name; }
@@ -42,14 +42,14 @@ struct Cluster {
 /// All that is believed after some frames. A value that shares what did not change: copying one
 /// costs a pointer for each cluster. Leaves are lazy: each holds for its own time.
 struct Belief {
-  Utime utime = 0;         ///< of the newest frame; 0 before the first
-  Utime start = 0;         ///< of the first frame
+  Utime utime = 0;  ///< of the newest frame; 0 before the first
+  Utime start = 0;  ///< of the first frame
   std::uint64_t frames = 0;
   std::vector<std::shared_ptr<const Cluster>> clusters;
   std::vector<UndetectedIntensity> undetected;  ///< per class
   std::uint64_t births = 0;
   std::vector<std::uint64_t> names;  ///< given so far, per class
-  double dropped = 0;      ///< probability of hypotheses dropped so far, summed over clusters
+  double dropped = 0;  ///< probability of hypotheses dropped so far, summed over clusters
 
   /// Seconds since the start, as the undetected intensities count them.
   double seconds(Utime at) const { return seconds_between(start, at); }

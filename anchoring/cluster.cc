@@ -133,10 +133,10 @@ void merge_twins(Cluster& cluster, const Background& background) {
       const std::uint64_t first = std::min(x.birth_frame, y.birth_frame);
       const std::uint64_t last = std::max(x.birth_frame, y.birth_frame);
       if (first == last || last - first > depth || !exclude_each_other(cluster, a, b)) continue;
-      const bool keep_a = x.name.empty() == y.name.empty()
-                              ? cluster.existence(static_cast<int>(a)) >=
-                                    cluster.existence(static_cast<int>(b))
-                              : !x.name.empty();
+      const bool keep_a =
+          x.name.empty() == y.name.empty()
+              ? cluster.existence(static_cast<int>(a)) >= cluster.existence(static_cast<int>(b))
+              : !x.name.empty();
       any = take_over(cluster, keep_a ? a : b, keep_a ? b : a, background) || any;
     }
   if (any) merge_equal(cluster.hypotheses);

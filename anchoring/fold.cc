@@ -111,7 +111,7 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
     auto predicted = predict(cluster, frame, from, visibility, background);
     if (predicted.touched())
       touched.push_back(std::move(predicted));
-    else
+    else if (!predicted.departed(background.knowledge.limits.min_existence))
       untouched.push_back(std::move(cluster));
   }
   Ties ties(touched.size() + detections);
@@ -129,8 +129,8 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   const std::size_t first_touched = belief.clusters.size();
   for (const Group& group : groups) {
     if (group.clusters.empty() && group.detections.empty()) continue;
-    for (auto& cluster : associate(group.clusters, group.detections, frame, from, visibility,
-                                   background, belief))
+    for (auto& cluster :
+         associate(group.clusters, group.detections, frame, from, visibility, background, belief))
       belief.clusters.push_back(std::move(cluster));
   }
   belief.births += detections;

@@ -171,7 +171,8 @@ double log_likelihood(const Leaf& leaf, const MapDetection& z,
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
     by_class += leaf.classes[c] * detection_probability[c] * z.class_ratio[c];
   double log_g = std::log(by_class) + log_position;
-  for (const auto& evidence : z.attributes) log_g += log_attribute_ratio(leaf, evidence, background);
+  for (const auto& evidence : z.attributes)
+    log_g += log_attribute_ratio(leaf, evidence, background);
   return log_g;
 }
 

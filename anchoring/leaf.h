@@ -16,8 +16,8 @@ class Visibility;
 
 /// What a leaf believes about one attribute other than the class.
 struct AttributeBelief {
-  int attribute = 0;            ///< index into Knowledge::attributes
-  std::vector<double> symbols;  ///< categorical: b_A(s), sums to 1
+  int attribute = 0;              ///< index into Knowledge::attributes
+  std::vector<double> symbols;    ///< categorical: b_A(s), sums to 1
   double mean = 0, variance = 0;  ///< scalar
 };
 
@@ -30,12 +30,12 @@ struct ModelState {
 /// One version of an anchor, given one history of associations. A value; all of it holds for
 /// `utime`. Class, models and position are kept as a product of marginals.
 struct Leaf {
-  double existence = 0;                             ///< r
-  boost::container::small_vector<double, 4> classes;  ///< b(c), sums to 1
-  int model_class = 0;                              ///< the class whose models these are
+  double existence = 0;                                  ///< r
+  boost::container::small_vector<double, 4> classes;     ///< b(c), sums to 1
+  int model_class = 0;                                   ///< the class whose models these are
   boost::container::small_vector<ModelState, 2> models;  ///< in the order of that class
-  std::vector<AttributeBelief> attributes;          ///< those reported, ascending
-  std::optional<double> yaw;                        ///< last reported, map frame
+  std::vector<AttributeBelief> attributes;               ///< those reported, ascending
+  std::optional<double> yaw;                             ///< last reported, map frame
   Utime utime = 0;
   Utime last_seen = 0;
   /// Which detections it was given in the last scans, as frame number << 16 | detection, ascending.

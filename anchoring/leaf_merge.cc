@@ -42,8 +42,8 @@ int heir(const BehaviourModel& old, const std::vector<BehaviourModel>& models,
 }
 
 /// Adds weight and density to a model that has `to.weight` of its own.
-void take_over(ModelState& to, const ModelState& from, const BehaviourModel& model,
-               bool same_place, int dims) {
+void take_over(ModelState& to, const ModelState& from, const BehaviourModel& model, bool same_place,
+               int dims) {
   if (model.tracked()) {
     const Kinematic arriving = moments(from, model, dims);
     auto& density = std::get<Kinematic>(to.density);
@@ -56,8 +56,8 @@ void take_over(ModelState& to, const ModelState& from, const BehaviourModel& mod
     if (!same_place)
       density.enter(to.weight, from.weight);  // uniform over the other place
     else if (to.weight > 0)
-      density = Somewhere::merge(to.weight, density, from.weight,
-                                 std::get<Somewhere>(from.density));
+      density =
+          Somewhere::merge(to.weight, density, from.weight, std::get<Somewhere>(from.density));
     else
       density = std::get<Somewhere>(from.density);
   }

@@ -24,8 +24,7 @@ AttributeBelief first_belief(const AttributeEvidence& evidence) {
 
 void learn(AttributeBelief& belief, const AttributeEvidence& evidence) {
   if (!belief.symbols.empty()) {
-    for (std::size_t s = 0; s < belief.symbols.size(); ++s)
-      belief.symbols[s] *= evidence.ratio[s];
+    for (std::size_t s = 0; s < belief.symbols.size(); ++s) belief.symbols[s] *= evidence.ratio[s];
     scale_to_one(belief.symbols);
     return;
   }
@@ -80,8 +79,8 @@ void update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
   if (found <= 0) return;
   ModelState& home = leaf.models[target];
   const bool moving = models[target].kind == BehaviourModel::Kind::kConstantVelocity;
-  Kinematic at_z = kinematic_at(
-      z.position, moving ? models[target].initial_velocity_variance : 0.0, dims);
+  Kinematic at_z =
+      kinematic_at(z.position, moving ? models[target].initial_velocity_variance : 0.0, dims);
   keep_above(at_z, sensor.pose_floor, dims);
   auto& density = std::get<Kinematic>(home.density);
   density = home.weight > 0 ? merge(home.weight, density, found, at_z) : at_z;
@@ -115,8 +114,7 @@ void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& vis
     ModelState& state = leaf.models[m];
     state.weight *= (1 - p * shown.v_model[m]) / (1 - p * v);
     sum += state.weight;
-    if (auto* somewhere = std::get_if<Somewhere>(&state.density);
-        somewhere && shown.v_model[m] > 0)
+    if (auto* somewhere = std::get_if<Somewhere>(&state.density); somewhere && shown.v_model[m] > 0)
       somewhere->miss(p, visibility.of(*somewhere->footprint()));
   }
   for (auto& state : leaf.models) state.weight /= sum;

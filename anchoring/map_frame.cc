@@ -109,8 +109,8 @@ Result<Gaussian> read_position(const Detection& from, const std::optional<Pose>&
     filled.position.pop_back();
   if (filled.covariance.empty()) {
     if (sensor.noise.empty())
-      return invalid("covariance", "is missing, and sensor \"" + sensor.name +
-                                       "\" has no noise configured");
+      return invalid("covariance",
+                     "is missing, and sensor \"" + sensor.name + "\" has no noise configured");
     filled.covariance = sensor.noise;
   }
   return to_map(filled, pose, dims);
@@ -121,8 +121,7 @@ Result<MapDetection> place_detection(const Detection& from, const Frame& frame,
                                      const Sensor& sensor) {
   MapDetection to;
   auto position = read_position(from, frame.pose, sensor, background.dims);
-  if (!position)
-    return invalid(at + "." + position.error().field, position.error().message);
+  if (!position) return invalid(at + "." + position.error().field, position.error().message);
   to.position = *position;
   to.class_ratio.assign(background.classes(), 1.0);
   if (auto read = read_attributes(from, at, background.knowledge, sensor, to); !read)
@@ -166,9 +165,9 @@ Result<MapFrame> place_in_map(const Frame& frame, const Background& background) 
   out.view = *placed;
   out.detections.reserve(frame.detections.size());
   for (std::size_t i = 0; i < frame.detections.size(); ++i) {
-    auto detection = place_detection(frame.detections[i], frame,
-                                     "detections[" + std::to_string(i) + "]", background,
-                                     *out.sensor);
+    auto detection =
+        place_detection(frame.detections[i], frame, "detections[" + std::to_string(i) + "]",
+                        background, *out.sensor);
     if (!detection) return detection.error();
     out.detections.push_back(std::move(*detection));
   }

@@ -14,8 +14,8 @@ namespace anchord {
 
 /// What a detection says about one attribute other than its class.
 struct AttributeEvidence {
-  int attribute = 0;          ///< index into Knowledge::attributes
-  std::vector<double> ratio;  ///< categorical: per symbol m(s) / pi(s), likelihood over prior
+  int attribute = 0;              ///< index into Knowledge::attributes
+  std::vector<double> ratio;      ///< categorical: per symbol m(s) / pi(s), likelihood over prior
   double mean = 0, variance = 0;  ///< scalar
 };
 
@@ -25,9 +25,9 @@ struct MapDetection {
   bool has_class = false;
   std::vector<double> class_ratio;  ///< l(z|c) per class; 1 if no class was reported
   std::vector<AttributeEvidence> attributes;
-  double log_clutter = 0;           ///< ln kappa(z)
-  std::optional<double> yaw;        ///< map frame
-  std::string object;               ///< the anchor that it names, or empty
+  double log_clutter = 0;     ///< ln kappa(z)
+  std::optional<double> yaw;  ///< map frame
+  std::string object;         ///< the anchor that it names, or empty
 };
 
 /// A frame, checked and placed in the map: what the engine folds.

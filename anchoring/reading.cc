@@ -47,8 +47,7 @@ double mass_in_any_place(const Gaussian& density, const Background& background) 
       for (int k = 0; k < depth; ++k) {
         // Eigenvalues ascend: in a 2-D world the first is the absent axis.
         const Eigen::Vector3d u(depth > 1 ? quantile(k) : 0.0, quantile(i), quantile(j));
-        const Eigen::Vector3d x =
-            density.mean + axes.eigenvectors() * spread.cwiseProduct(u);
+        const Eigen::Vector3d x = density.mean + axes.eigenvectors() * spread.cwiseProduct(u);
         inside += std::any_of(places.begin(), places.end(), [&](const Place& place) {
           return place.region.contains(x, background.dims);
         });
@@ -96,8 +95,8 @@ Gaussian moments(const Leaf& leaf) {
   for (const ModelState& model : leaf.models) {
     if (model.weight <= 0) continue;
     const auto* kinematic = std::get_if<Kinematic>(&model.density);
-    const Gaussian g = kinematic ? kinematic->position_density()
-                                 : std::get<Somewhere>(model.density).moments();
+    const Gaussian g =
+        kinematic ? kinematic->position_density() : std::get<Somewhere>(model.density).moments();
     const Eigen::Vector3d d = g.mean - about;
     sum.mean += model.weight * d;
     second += model.weight * (g.covariance + d * d.transpose());
@@ -127,11 +126,12 @@ double mass_outside_places(const Leaf& leaf, const Background& background) {
   for (const ModelState& model : leaf.models) {
     if (model.weight <= 0) continue;
     const auto* kinematic = std::get_if<Kinematic>(&model.density);
-    inside += model.weight *
-              (kinematic ? mass_in_any_place(kinematic->position_density(), background)
-                         : std::get<Somewhere>(model.density)
-                               .mass(background.overlap_any(
-                                   *std::get<Somewhere>(model.density).footprint())));
+    inside +=
+        model.weight *
+        (kinematic
+             ? mass_in_any_place(kinematic->position_density(), background)
+             : std::get<Somewhere>(model.density)
+                   .mass(background.overlap_any(*std::get<Somewhere>(model.density).footprint())));
   }
   return std::clamp(1 - inside, 0.0, 1.0);
 }
@@ -177,8 +177,7 @@ int ObjectBelief::place(const Background& background) const {
 std::vector<double> ObjectBelief::classes(const Background& background) const {
   std::vector<double> b(background.classes(), 0.0);
   for (const Version& version : versions)
-    for (std::size_t c = 0; c < b.size(); ++c)
-      b[c] += version.weight(p) * version.leaf.classes[c];
+    for (std::size_t c = 0; c < b.size(); ++c) b[c] += version.weight(p) * version.leaf.classes[c];
   return b;
 }
 
@@ -196,7 +195,8 @@ std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double mi
       ObjectBelief object;
       object.anchor = cluster->anchors[a].anchor;
       const auto& leaves = cluster->anchors[a].leaves;
-      for (const auto& leaf : leaves) object.versions.push_back({0, predicted(*leaf, at, background)});
+      for (const auto& leaf : leaves)
+        object.versions.push_back({0, predicted(*leaf, at, background)});
       for (const Hypothesis& h : cluster->hypotheses)
         if (h.leaf[a] != Hypothesis::kNoLeaf)
           object.versions[h.leaf[a]].probability += std::exp(h.log_weight);

@@ -19,9 +19,9 @@ struct ObjectBelief {
     double weight(double p) const { return p > 0 ? probability * leaf.existence / p : 0; }
   };
   std::shared_ptr<const Anchor> anchor;
-  double p = 0;                   ///< that it exists
-  int best = -1;                  ///< the version in the most probable hypothesis, or -1
-  bool in_best = false;           ///< stands in the best world: that version has r >= 0.5
+  double p = 0;          ///< that it exists
+  int best = -1;         ///< the version in the most probable hypothesis, or -1
+  bool in_best = false;  ///< stands in the best world: that version has r >= 0.5
   std::vector<Version> versions;
 
   /// Mean and covariance of the position, given that it exists.

@@ -20,9 +20,8 @@ Look look_at(const MapView& view, const Tiling& tiling) {
     for (int j = 0; j < Tiling::kEdge && y0 + j < grid.rows; ++j)
       for (int i = 0; i < Tiling::kEdge && x0 + i < grid.columns; ++i) {
         const int cell = (y0 + j) * grid.columns + x0 + i;
-        const double share = view.sees_everything()
-                                 ? 1.0
-                                 : view.share(grid.corner_min(cell), grid.corner_max(cell));
+        const double share =
+            view.sees_everything() ? 1.0 : view.share(grid.corner_min(cell), grid.corner_max(cell));
         tile.share[j * Tiling::kEdge + i] = share;
         any = any || share > 0;
       }
@@ -51,10 +50,10 @@ LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_det
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     if (!models[m].detectable || leaf.models[m].weight <= 0) continue;
     const auto& density = leaf.models[m].density;
-    const double mass = std::holds_alternative<Kinematic>(density)
-                            ? view_.mass(std::get<Kinematic>(density).position_density())
-                            : std::get<Somewhere>(density).mass(
-                                  of(*std::get<Somewhere>(density).footprint()));
+    const double mass =
+        std::holds_alternative<Kinematic>(density)
+            ? view_.mass(std::get<Kinematic>(density).position_density())
+            : std::get<Somewhere>(density).mass(of(*std::get<Somewhere>(density).footprint()));
     shown.v_model[m] = mass;
     shown.v += leaf.models[m].weight * mass;
   }

@@ -62,7 +62,8 @@ Status World::apply(const Frame& frame) {
   const auto index = static_cast<std::size_t>(place - recent_.begin());
   if (index < recent_.size()) ++late_frames_;
   auto before = index < recent_.size() ? recent_[index].before : belief_;
-  recent_.insert(place, Step{std::make_shared<const MapFrame>(std::move(*placed)), std::move(before)});
+  recent_.insert(place,
+                 Step{std::make_shared<const MapFrame>(std::move(*placed)), std::move(before)});
   fold_from(index);
 
   const Utime horizon = belief_->utime - from_seconds(background_->knowledge.max_lateness);

@@ -28,8 +28,8 @@ Json undetected_json(const Snapshot& snapshot, const Parameters& asked) {
   const Background& background = *snapshot.background;
   Json out = Json::array();
   for (int i = 0; i < static_cast<int>(background.knowledge.places.size()); ++i) {
-    const double expected = undetected(*snapshot.belief, snapshot.belief->utime, asked.description,
-                                       i, background);
+    const double expected =
+        undetected(*snapshot.belief, snapshot.belief->utime, asked.description, i, background);
     if (expected >= kLeastShown)
       out.push_back({{"place", background.knowledge.places[i].name}, {"expected", expected}});
   }
@@ -108,8 +108,8 @@ Result<Json> answer_count(const HttpTarget& target, const Snapshot& snapshot) {
   return Json{{"utime", now},
               {"distribution", distribution},
               {"expected", expected},
-              {"undetected", undetected(*snapshot.belief, now, asked->description, asked->place,
-                                        background)}};
+              {"undetected",
+               undetected(*snapshot.belief, now, asked->description, asked->place, background)}};
 }
 
 }  // namespace anchord

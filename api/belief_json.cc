@@ -68,9 +68,8 @@ Json attributes_json(const ObjectBelief& object, const Background& background) {
       out[attributes[a].name] = symbols_json(p, attributes[a]);
     } else {
       mean /= held;
-      out[attributes[a].name] = {{"mean", mean},
-                                 {"variance", second / held - mean * mean},
-                                 {"unit", attributes[a].unit}};
+      out[attributes[a].name] = {
+          {"mean", mean}, {"variance", second / held - mean * mean}, {"unit", attributes[a].unit}};
     }
   }
   return out;

@@ -13,8 +13,8 @@ Json object_json(const ObjectBelief& object, const Background& background) {
            {"p", object.p},
            {"position", position_json(where.mean, background.dims)},
            {"covariance", covariance_json(where.covariance, background.dims)}};
-  const Leaf* leaf = object.best >= 0 ? &object.versions[object.best].leaf
-                                      : &object.versions.front().leaf;
+  const Leaf* leaf =
+      object.best >= 0 ? &object.versions[object.best].leaf : &object.versions.front().leaf;
   out["velocity"] = position_json(position_of(*leaf).velocity, background.dims);
   out["attributes"] = attributes_json(object, background);
   out["last_seen"] = object.last_seen();
@@ -89,13 +89,11 @@ Result<Json> answer_object(const std::string& id, const HttpTarget& target,
                            const Snapshot& snapshot) {
   const Background& background = *snapshot.background;
   if (auto none = read_parameters(target, "", background); !none) return none.error();
-  for (const auto& object :
-       read_objects(*snapshot.belief, snapshot.belief->utime, 0, background)) {
+  for (const auto& object : read_objects(*snapshot.belief, snapshot.belief->utime, 0, background)) {
     if (object.anchor->id() != id) continue;
     Json out{{"utime", snapshot.belief->utime}};
     out.update(object_json(object, background));
-    out["models"] = model_list(
-        object.versions[std::max(object.best, 0)].leaf, background);
+    out["models"] = model_list(object.versions[std::max(object.best, 0)].leaf, background);
     out["alternatives"] = alternatives_json(object, background);
     return out;
   }

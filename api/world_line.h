@@ -8,8 +8,8 @@ namespace anchord {
 
 /// What a line of WORLD.jsonl holds beside the best world.
 struct WorldLineOptions {
-  bool all = false;        ///< every anchor of p >= 0.001, with `in_best` and `marginal`
-  int hypotheses = 0;      ///< that many of the best hypotheses of each cluster
+  bool all = false;                  ///< every anchor of p >= 0.001, with `in_best` and `marginal`
+  int hypotheses = 0;                ///< that many of the best hypotheses of each cluster
   std::optional<double> elapsed_us;  ///< how long the frame took
 };
 

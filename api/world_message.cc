@@ -8,8 +8,7 @@
 namespace anchord {
 namespace {
 
-attribute_t attribute_message(const AttributeBelief& belief,
-                                         const Attribute& attribute) {
+attribute_t attribute_message(const AttributeBelief& belief, const Attribute& attribute) {
   attribute_t out{};
   out.name = attribute.name;
   out.kind = belief.symbols.empty() ? attribute_t::SCALAR : attribute_t::SYMBOLS;

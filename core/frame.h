@@ -17,10 +17,10 @@ namespace anchord {
 
 /// The sensor in the map frame.
 struct Pose {
-  std::array<double, 3> position{};              ///< of the sensor's origin, map frame
-  std::array<double, 4> orientation{1, 0, 0, 0}; ///< quaternion w, x, y, z: map from sensor
-  std::array<double, 36> covariance{};           ///< row-major over map position and small
-                                                 ///< rotations about the map's axes; zeros: exact
+  std::array<double, 3> position{};               ///< of the sensor's origin, map frame
+  std::array<double, 4> orientation{1, 0, 0, 0};  ///< quaternion w, x, y, z: map from sensor
+  std::array<double, 36> covariance{};            ///< row-major over map position and small
+                                                  ///< rotations about the map's axes; zeros: exact
   bool operator==(const Pose&) const = default;
 };
 
@@ -31,8 +31,8 @@ struct View {
   std::array<double, 2> range{};    ///< sector, frustum: least and most Euclidean range
   std::array<double, 2> bearing{};  ///< sector: from the first counter-clockwise to the second
   std::array<double, 2> elevation{-1.5707963267948966, 1.5707963267948966};  ///< sector
-  double hfov = 0, vfov = 0;                   ///< frustum: full opening angles about +x
-  std::vector<std::array<double, 2>> points;   ///< polygon, unbounded in z
+  double hfov = 0, vfov = 0;                  ///< frustum: full opening angles about +x
+  std::vector<std::array<double, 2>> points;  ///< polygon, unbounded in z
   bool operator==(const View&) const = default;
 };
 

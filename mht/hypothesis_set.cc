@@ -14,8 +14,7 @@ namespace {
 /// FNV-1a over the leaf numbers.
 std::uint64_t hash_of(const Hypothesis& h) {
   std::uint64_t hash = 14695981039346656037u;
-  for (int leaf : h.leaf)
-    hash = (hash ^ static_cast<std::uint32_t>(leaf)) * 1099511628211u;
+  for (int leaf : h.leaf) hash = (hash ^ static_cast<std::uint32_t>(leaf)) * 1099511628211u;
   return hash;
 }
 

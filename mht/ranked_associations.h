@@ -29,7 +29,8 @@ struct Association {
   static constexpr int kNone = -1;
   int parent = 0;
   double log_weight = 0;
-  boost::container::small_vector<int, 8> leaf_of;  ///< per detection a position in the parent's `leaves`, or kNone
+  boost::container::small_vector<int, 8>
+      leaf_of;  ///< per detection a position in the parent's `leaves`, or kNone
 };
 
 /// All associations of a problem, best first, over all parents at once: one heap of subproblems
@@ -48,10 +49,10 @@ class RankedAssociations {
     double bound;  // log weight, exact once solved
     int parent;
     bool solved;
-    int banned_row;                    // the row that must change, -1 for a root
-    Assignment assignment;             // of the node it came from, until solved
-    RowFlags fixed;           // rows that may not change
-    boost::container::small_vector<int, 8> banned;           // entries of the cost matrix made infinite
+    int banned_row;                                 // the row that must change, -1 for a root
+    Assignment assignment;                          // of the node it came from, until solved
+    RowFlags fixed;                                 // rows that may not change
+    boost::container::small_vector<int, 8> banned;  // entries of the cost matrix made infinite
   };
   /// A node's place in the heap.
   struct Entry {

@@ -215,9 +215,10 @@ Gaussian Somewhere::moments() const {
     d.z() = 0;  // every column is as high as the place
     const double m = mass_in(static_cast<int>(i));
     g.mean += m * d;
-    second += m * (d * d.transpose());
+    second += m * d * d.transpose();
   }
-  g.covariance = second - g.mean * g.mean.transpose();
+  second -= g.mean * g.mean.transpose();
+  g.covariance = 0.5 * (second + second.transpose());  // to rounding it was symmetric already
   g.mean += about;
   const double in_cell = f.grid.cell * f.grid.cell / 12;  // variance inside a cell
   g.covariance(0, 0) += in_cell;

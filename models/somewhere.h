@@ -18,9 +18,9 @@ struct Footprint {
   double volume = 0;  ///< m^dims
   int dims = 2;
   Grid grid;
-  std::vector<int> cells;          ///< grid indices, ascending
-  std::vector<double> share;       ///< of the region's area in each of them; sums to 1
-  std::vector<int> position_of;    ///< by grid index: where in `cells` it stands, or -1
+  std::vector<int> cells;        ///< grid indices, ascending
+  std::vector<double> share;     ///< of the region's area in each of them; sums to 1
+  std::vector<int> position_of;  ///< by grid index: where in `cells` it stands, or -1
 
   /// The region must have a finite volume. The grid is that of the region's own bounding box,
   /// aligned to `world`.

@@ -54,8 +54,7 @@ void UndetectedIntensity::miss(const Look& look, double p, double time) {
       for (int x = 0; x < Tiling::kEdge && x0 + x < grid.columns; ++x) {
         const int i = y * Tiling::kEdge + x, cell = (y0 + y) * grid.columns + x0 + x;
         const double before = old ? old->intensity[i] : model_->start;
-        next->intensity[i] =
-            (before * stay + arrival_rate(cell) * rise) * (1 - p * seen.share[i]);
+        next->intensity[i] = (before * stay + arrival_rate(cell) * rise) * (1 - p * seen.share[i]);
       }
     tiles_[seen.tile] = std::move(next);
   }

@@ -31,9 +31,9 @@ struct Look {
 
 /// What drives a class's intensity: d lambda / dt = beta(x) - mu lambda.
 struct ArrivalModel {
-  double start = 0;          ///< lambda at the start, per m^dims
-  double departure_rate = 0; ///< mu, 1/s
-  double arrival_rate = 0;   ///< beta, per m^dims and s, everywhere
+  double start = 0;                           ///< lambda at the start, per m^dims
+  double departure_rate = 0;                  ///< mu, 1/s
+  double arrival_rate = 0;                    ///< beta, per m^dims and s, everywhere
   std::vector<double> arrival_rate_per_cell;  ///< if not empty: beta of each grid cell instead
 };
 

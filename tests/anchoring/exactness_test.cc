@@ -34,8 +34,8 @@ std::map<std::uint64_t, ObjectKey> keys_by_birth(const std::vector<Frame>& frame
 std::string current_id(const World& world, const std::string& reference,
                        const std::vector<Frame>& frames) {
   const auto wanted = enumeration::parse_reference(reference);
-  for (const auto& object : read_objects(*world.belief(), world.belief()->utime, 0,
-                                         *world.background()))
+  for (const auto& object :
+       read_objects(*world.belief(), world.belief()->utime, 0, *world.background()))
     if (keys_by_birth(frames).at(object.anchor->birth) == *wanted) return object.anchor->id();
   return "no such object";
 }

@@ -41,9 +41,9 @@ TEST(Assignment, IsTheCheapest) {
     const int n = 1 + static_cast<int>(random.engine() % 6), m = random.engine() % 6;
     std::vector<double> cost;
     for (int i = 0; i < n * (m + 1); ++i)
-      cost.push_back(i % (m + 1) == m            ? random.real(-1, 1)
+      cost.push_back(i % (m + 1) == m           ? random.real(-1, 1)
                      : random.engine() % 4 == 0 ? kInfinite
-                                                 : random.real(-10, 5));
+                                                : random.real(-10, 5));
     Assignment assignment(n, m);
     assignment.solve(cost);
     ASSERT_NEAR(assignment.cost(cost), least(cost, n, m), 1e-9) << "trial " << trial;

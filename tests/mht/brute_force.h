@@ -33,9 +33,8 @@ inline std::vector<Association> every_association(const AssociationProblem& prob
     };
     recurse(recurse, 0, parent.log_weight);
   }
-  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
-    return a.log_weight > b.log_weight;
-  });
+  std::stable_sort(out.begin(), out.end(),
+                   [](const auto& a, const auto& b) { return a.log_weight > b.log_weight; });
   return out;
 }
 

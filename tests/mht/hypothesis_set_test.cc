@@ -9,7 +9,8 @@
 namespace anchord {
 namespace {
 
-HypothesisSet set_of(std::vector<std::pair<double, boost::container::small_vector<int, 12>>> entries) {
+HypothesisSet set_of(
+    std::vector<std::pair<double, boost::container::small_vector<int, 12>>> entries) {
   HypothesisSet set;
   for (auto& [weight, leaf] : entries) set.push_back({std::log(weight), leaf});
   normalise(set);
@@ -46,8 +47,7 @@ TEST(HypothesisSet, JoinIsTheProductBestFirst) {
   ASSERT_EQ(all.size(), 6u);
   EXPECT_EQ(all[0].leaf, (boost::container::small_vector<int, 12>{0, 0, 0}));
   EXPECT_NEAR(std::exp(all[5].log_weight), 0.04, 1e-15);
-  for (std::size_t i = 1; i < all.size(); ++i)
-    EXPECT_LE(all[i].log_weight, all[i - 1].log_weight);
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_LE(all[i].log_weight, all[i - 1].log_weight);
   const auto three = join(a, b, 3, 0);
   ASSERT_EQ(three.size(), 3u);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(three[i].leaf, all[i].leaf);
@@ -86,7 +86,8 @@ TEST(Factorise, AProductThatWasCutIsCompleted) {
 
 TEST(Factorise, AnAnchorThatNeverVariesStandsAlone) {
   const auto set = set_of({{0.6, {0, 2, 0}}, {0.4, {1, 2, 1}}});
-  EXPECT_EQ(groups(factorise(set, {0, kRounding, 0})), (std::vector<std::vector<int>>{{0, 2}, {1}}));
+  EXPECT_EQ(groups(factorise(set, {0, kRounding, 0})),
+            (std::vector<std::vector<int>>{{0, 2}, {1}}));
 }
 
 TEST(Factorise, ChangesThatExcludeEachOtherStayTogether) {

@@ -151,6 +151,9 @@ TYPED_TEST(DensityLaw, CovarianceStaysSymmetricPositiveDefinite) {
     for (int step = 0; step < 300; ++step) {
       if (this->dice.chance(0.6)) TypeParam::predict(state, this->dice.scale(1e-4, 1e3));
       if (this->dice.chance(0.7)) TypeParam::observe(state, this->dice);
+      if (this->dice.chance(0.1))
+        state =
+            TypeParam::merged(this->dice.scale(1e-9, 1), state, 0.1, TypeParam::random(this->dice));
       const auto c = this->covariance(state);
       ASSERT_TRUE(c.allFinite());
       // Half an ulp: the compiler may sum c and its transpose in another order.

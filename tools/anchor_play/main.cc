@@ -52,11 +52,10 @@ int main(int argc, char** argv) {
     if (seq == 0) first = frame.utime;
     if (speed > 0)
       std::this_thread::sleep_until(
-          begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                      std::chrono::duration<double>(
-                          anchord::seconds_between(first, frame.utime) / speed)));
-    const auto sent =
-        (*bus)->publish(anchord::kDetectionsChannel, anchord::encode(frame, ++seq));
+          begin +
+          std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+              std::chrono::duration<double>(anchord::seconds_between(first, frame.utime) / speed)));
+    const auto sent = (*bus)->publish(anchord::kDetectionsChannel, anchord::encode(frame, ++seq));
     if (!sent) return fail(sent.error().text());
   }
   std::printf("played %lld frames\n", static_cast<long long>(seq));
