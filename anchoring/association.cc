@@ -141,7 +141,7 @@ bool PredictedCluster::departed(double min_existence) const {
 std::vector<std::shared_ptr<const Cluster>> associate(
     const std::vector<PredictedCluster>& clusters, const std::vector<int>& detections,
     const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
-    const Background& background, Belief& belief) {
+    const Background& background, const Belief& belief) {
   const Limits& limits = background.knowledge.limits;
   const Tied tied = tie(clusters, limits);
   const AssociationProblem problem = problem_of(tied, detections);
@@ -154,8 +154,7 @@ std::vector<std::shared_ptr<const Cluster>> associate(
     auto leaf = birth(detections[z], frame, origins[detections[z]], belief.frames, background);
     if (!leaf) continue;
     anchor_of[z] = static_cast<int>(joint.anchors.size());
-    auto anchor = std::make_shared<const Anchor>(
-        Anchor{belief.births + detections[z] + 1, belief.frames, ""});
+    auto anchor = std::make_shared<const Anchor>(Anchor{belief.births + detections[z] + 1, ""});
     joint.anchors.push_back({std::move(anchor), {std::move(leaf)}});
   }
 
@@ -187,11 +186,8 @@ std::vector<std::shared_ptr<const Cluster>> associate(
       break;
   }
   merge_equal(joint.hypotheses);
-  belief.dropped += prune(joint.hypotheses, 0, limits.min_weight);
-  if (limits.scan_depth > 0) {
-    merge_alike(joint, background);
-    merge_twins(joint, background);
-  }
+  prune(joint.hypotheses, 0, limits.min_weight);
+  if (limits.scan_depth > 0) merge_alike(joint, background);
   return split(joint, background);
 }
 

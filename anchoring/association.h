@@ -58,12 +58,9 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
                          const Background& background);
 /// Associates `detections` (indices into the frame, ascending) with the clusters that they tie
 /// together: the clusters after the frame. Without clusters each detection starts one of its own.
-/// Reads the belief's counters and adds to what it has dropped.
-std::vector<std::shared_ptr<const Cluster>> associate(const std::vector<PredictedCluster>& clusters,
-                                                      const std::vector<int>& detections,
-                                                      const MapFrame& frame,
-                                                      const std::vector<Origin>& origins,
-                                                      const Visibility& visibility,
-                                                      const Background& background, Belief& belief);
+std::vector<std::shared_ptr<const Cluster>> associate(
+    const std::vector<PredictedCluster>& clusters, const std::vector<int>& detections,
+    const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
+    const Background& background, const Belief& belief);
 
 }  // namespace anchord

@@ -47,6 +47,12 @@ struct Background {
   }
   /// Whether outermost places are disjoint and every inner one lies in its parent.
   bool places_nest() const { return places_nest_; }
+  /// The cell of a point, or -1 outside the bounds, where nothing is kept per cell.
+  int cell_of(const Eigen::Vector3d& point) const {
+    for (int i = 0; i < dims; ++i)
+      if (point[i] < knowledge.bounds_min[i] || point[i] > knowledge.bounds_max[i]) return -1;
+    return grid.index(point);
+  }
   const ObjectClass& object_class(int c) const { return knowledge.classes[c]; }
   int classes() const { return static_cast<int>(knowledge.classes.size()); }
 

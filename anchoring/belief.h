@@ -13,9 +13,8 @@ namespace anchord {
 
 /// One object that is believed to exist, whichever hypothesis leads: its identity for life.
 struct Anchor {
-  std::uint64_t birth = 0;        ///< counts anchors in order of birth (frame, then detection)
-  std::uint64_t birth_frame = 0;  ///< number of the frame of its first detection
-  std::string name;  ///< `cup-12`; empty until it has p >= 0.5 or stands in a best world
+  std::uint64_t birth = 0;  ///< counts anchors in order of birth (frame, then detection)
+  std::string name;         ///< `cup-12`; empty until it has p >= 0.5 or stands in a best world
 
   /// The name, or `new-N` before it has one.
   std::string id() const { return name.empty() ? "new-" + std::to_string(birth) : name; }
@@ -49,7 +48,6 @@ struct Belief {
   std::vector<UndetectedIntensity> undetected;  ///< per class
   std::uint64_t births = 0;
   std::vector<std::uint64_t> names;  ///< given so far, per class
-  double dropped = 0;  ///< probability of hypotheses dropped so far, summed over clusters
 
   /// Seconds since the start, as the undetected intensities count them.
   double seconds(Utime at) const { return seconds_between(start, at); }

@@ -20,38 +20,6 @@ constexpr double kNegligibleMerge = 1e-4;
 /// where they are not.
 constexpr double kNegligible = 1e-4, kUneven = 0.05, kRounding = 1e-12;
 
-/// Whether one history of detections ends with the other, which is not empty.
-bool ends_with(const Leaf& longer, const Leaf& shorter) {
-  const auto &l = longer.recent, &s = shorter.recent;
-  return !s.empty() && l.size() >= s.size() && std::equal(s.rbegin(), s.rend(), l.rbegin());
-}
-
-/// Whether no hypothesis holds both anchors.
-bool exclude_each_other(const Cluster& cluster, std::size_t a, std::size_t b) {
-  return std::none_of(cluster.hypotheses.begin(), cluster.hypotheses.end(), [&](const auto& h) {
-    return h.leaf[a] != Hypothesis::kNoLeaf && h.leaf[b] != Hypothesis::kNoLeaf;
-  });
-}
-
-/// Gives the worlds of `from`'s leaves that are alike to one of `to` to that one.
-bool take_over(Cluster& cluster, std::size_t to, std::size_t from, const Background& background) {
-  const auto &kept = cluster.anchors[to].leaves, &gone = cluster.anchors[from].leaves;
-  bool any = false;
-  for (std::size_t g = 0; g < gone.size(); ++g)
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      if (!ends_with(*kept[k], *gone[g]) && !ends_with(*gone[g], *kept[k])) continue;
-      if (difference(*kept[k], *gone[g], background) > kAlike) continue;
-      for (Hypothesis& h : cluster.hypotheses) {
-        if (h.leaf[from] != static_cast<int>(g)) continue;
-        h.leaf[to] = static_cast<int>(k);
-        h.leaf[from] = Hypothesis::kNoLeaf;
-        any = true;
-      }
-      break;
-    }
-  return any;
-}
-
 /// The leaves of an anchor, made fewer: for each old one the number of the one it is now part of.
 std::vector<int> merged(AnchorTree& tree, const std::vector<double>& probability,
                         const Background& background) {
@@ -120,25 +88,6 @@ void merge_alike(Cluster& cluster, const Background& background) {
     for (Hypothesis& h : cluster.hypotheses)
       if (h.leaf[a] != Hypothesis::kNoLeaf) h.leaf[a] = number[h.leaf[a]];
   }
-  if (any) merge_equal(cluster.hypotheses);
-}
-
-void merge_twins(Cluster& cluster, const Background& background) {
-  const auto depth = static_cast<std::uint64_t>(background.knowledge.limits.scan_depth);
-  bool any = false;
-  for (std::size_t a = 0; a < cluster.anchors.size(); ++a)
-    for (std::size_t b = a + 1; b < cluster.anchors.size(); ++b) {
-      // Anchors of one cluster need not stand in order of birth.
-      const Anchor &x = *cluster.anchors[a].anchor, &y = *cluster.anchors[b].anchor;
-      const std::uint64_t first = std::min(x.birth_frame, y.birth_frame);
-      const std::uint64_t last = std::max(x.birth_frame, y.birth_frame);
-      if (first == last || last - first > depth || !exclude_each_other(cluster, a, b)) continue;
-      const bool keep_a =
-          x.name.empty() == y.name.empty()
-              ? cluster.existence(static_cast<int>(a)) >= cluster.existence(static_cast<int>(b))
-              : !x.name.empty();
-      any = take_over(cluster, keep_a ? a : b, keep_a ? b : a, background) || any;
-    }
   if (any) merge_equal(cluster.hypotheses);
 }
 

@@ -13,11 +13,6 @@ namespace anchord {
 /// Versions are merged by moments; hypotheses that become equal are one.
 void merge_alike(Cluster& cluster, const Background& background);
 
-/// Makes one anchor of two that no world holds both of, that were born within `scan_depth` frames
-/// of each other and have been given the same detections since, and are alike: one object of which
-/// it is only unknown which detection was its first. The named one stays, else the likelier one.
-void merge_twins(Cluster& cluster, const Background& background);
-
 /// A cluster as the independent clusters it consists of (mht/factors.h), without leaves and
 /// anchors that no hypothesis uses. Anchors keep their order; clusters stand in order of their
 /// first anchor. Where hypotheses are bounded at all, a dependence of that order is let go.

@@ -53,7 +53,7 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
   const double time = belief.seconds(frame.utime);
   for (const MapDetection& z : frame.detections) {
     Origin origin;
-    const int cell = background.grid.index(z.position.mean);
+    const int cell = background.cell_of(z.position.mean);
     for (int c = 0; c < background.classes(); ++c) {
       origin.terms.push_back(frame.sensor->detection_probability[c] *
                              belief.undetected[c].at(cell, time) * z.class_ratio[c]);
@@ -83,7 +83,9 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
       predicted.shown = visibility.of(predicted.leaf, frame.sensor->detection_probability);
       predicted.log_miss = std::log1p(-predicted.leaf.existence * predicted.shown.q());
       out.shown = out.shown || predicted.shown.q() > 0;
-      out.stepped = out.stepped || background.dynamics[leaf->model_class].exchanges;
+      // Where two steps are not one long one, every frame must be a step.
+      out.stepped = out.stepped || background.dynamics[leaf->model_class].exchanges ||
+                    predicted.leaf.model_class != leaf->model_class;
       for (std::size_t z = 0; z < frame.detections.size(); ++z) {
         const double gain = log_gain(predicted, *cluster->anchors[a].anchor, frame.detections[z],
                                      origins[z], *frame.sensor, background);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/log_probability.h"
@@ -17,18 +18,6 @@ void move_density(ModelState& state, const BehaviourModel& model, double dt, int
     predict_constant_velocity(*kinematic, model.psd, dt, dims);
   else
     predict_constant_position(*kinematic, model.psd, dt, dims);
-}
-
-/// Kinematic moments as a model of another kind holds them.
-Kinematic as_model(Kinematic k, const BehaviourModel& model, int dims) {
-  if (model.kind == BehaviourModel::Kind::kConstantPosition) {
-    k.velocity.setZero();
-    k.pv.setZero();
-    k.vv.setZero();
-  } else if (k.vv.isZero(0)) {
-    for (int i = 0; i < dims; ++i) k.vv(i, i) = model.initial_velocity_variance;
-  }
-  return k;
 }
 
 /// The behaviour weights' Markov chain, and the densities that follow what flows.
@@ -102,6 +91,17 @@ double log_attribute_ratio(const Leaf& leaf, const AttributeEvidence& evidence,
 
 }  // namespace
 
+Kinematic as_model(Kinematic k, const BehaviourModel& model, int dims) {
+  if (model.kind == BehaviourModel::Kind::kConstantPosition) {
+    k.velocity.setZero();
+    k.pv.setZero();
+    k.vv.setZero();
+  } else if (k.vv.isZero(0)) {
+    for (int i = 0; i < dims; ++i) k.vv(i, i) = model.initial_velocity_variance;
+  }
+  return k;
+}
+
 int Leaf::top_class() const {
   return static_cast<int>(std::max_element(classes.begin(), classes.end()) - classes.begin());
 }
@@ -125,12 +125,18 @@ void predict(Leaf& leaf, Utime utime, const Background& background) {
   const double dt = seconds_between(leaf.utime, utime);
   leaf.utime = utime;
   if (dt == 0) return;
+  const auto before = leaf.classes;
   double stays = 0;
   bool leaves = false;
   for (int c = 0; c < background.classes(); ++c) {
     const double mu = background.object_class(c).departure_rate;
     if (mu > 0) leaf.classes[c] *= std::exp(-mu * dt), leaves = true;
     stays += leaf.classes[c];
+  }
+  if (leaves && stays < std::numeric_limits<double>::min()) {
+    leaf.existence = 0;  // gone for certain; what it was stays as it was
+    leaf.classes = before;
+    leaves = false;
   }
   if (leaves) {
     leaf.existence *= stays;

@@ -56,6 +56,10 @@ struct LeafVisibility {
   double q() const { return v * p; }                  ///< probability of being detected
 };
 
+/// A density's moments as a behaviour model of another kind holds them: constant_position has no
+/// velocity, constant_velocity begins with 0 and its initial variance.
+Kinematic as_model(Kinematic density, const BehaviourModel& model, int dims);
+
 /// Carries a leaf to `utime`: departure, behaviour weights, densities.
 void predict(Leaf& leaf, Utime utime, const Background& background);
 

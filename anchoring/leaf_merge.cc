@@ -7,21 +7,10 @@ namespace anchord {
 namespace {
 
 Kinematic moments(const ModelState& state, const BehaviourModel& target, int dims) {
-  Kinematic k;
-  if (const auto* somewhere = std::get_if<Somewhere>(&state.density)) {
-    const Gaussian g = somewhere->moments();
-    k = kinematic_at(g, 0, dims);
-  } else {
-    k = std::get<Kinematic>(state.density);
-  }
-  if (target.kind == BehaviourModel::Kind::kConstantPosition) {
-    k.velocity.setZero();
-    k.pv.setZero();
-    k.vv.setZero();
-  } else if (k.vv.isZero(0)) {
-    for (int i = 0; i < dims; ++i) k.vv(i, i) = target.initial_velocity_variance;
-  }
-  return k;
+  const auto* somewhere = std::get_if<Somewhere>(&state.density);
+  return as_model(
+      somewhere ? kinematic_at(somewhere->moments(), 0, dims) : std::get<Kinematic>(state.density),
+      target, dims);
 }
 
 /// The model of the new class that takes the density of an old one: same kind and place, not

@@ -33,8 +33,7 @@ void name_anchors(Belief& belief, std::size_t first_cluster, const Background& b
     const Leaf* best = cluster->best_leaf(at.anchor);
     const int c = (best ? best : tree.leaves.front().get())->top_class();
     tree.anchor = std::make_shared<const Anchor>(
-        Anchor{birth, tree.anchor->birth_frame,
-               background.object_class(c).name + "-" + std::to_string(++belief.names[c])});
+        Anchor{birth, background.object_class(c).name + "-" + std::to_string(++belief.names[c])});
     belief.clusters[at.cluster] = std::move(cluster);
   }
 }

@@ -181,11 +181,15 @@ std::vector<double> ObjectBelief::classes(const Background& background) const {
   return b;
 }
 
-Utime ObjectBelief::last_seen() const {
-  Utime last = 0;
-  for (const Version& version : versions) last = std::max(last, version.leaf.last_seen);
-  return last;
+const Leaf& ObjectBelief::shown() const {
+  if (best >= 0) return versions[best].leaf;
+  return std::max_element(
+             versions.begin(), versions.end(),
+             [&](const Version& a, const Version& b) { return a.weight(p) < b.weight(p); })
+      ->leaf;
 }
+
+Utime ObjectBelief::last_seen() const { return shown().last_seen; }
 
 std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double min_p,
                                        const Background& background) {
@@ -202,6 +206,7 @@ std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double mi
           object.versions[h.leaf[a]].probability += std::exp(h.log_weight);
       for (const auto& version : object.versions)
         object.p += version.probability * version.leaf.existence;
+      object.p = std::min(object.p, 1.0);  // sums of rounded weights
       object.best = cluster->hypotheses.front().leaf[a];
       object.in_best = object.best >= 0 && object.versions[object.best].leaf.existence >= 0.5;
       if (object.p >= min_p && object.p > 0) out.push_back(std::move(object));
@@ -215,7 +220,7 @@ std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double mi
 std::vector<double> count_distribution(const Belief& belief, Utime at,
                                        const Description& description, int place,
                                        const Background& background) {
-  constexpr double kLeast = 1e-12;
+  constexpr double kLeast = 1e-15;
   const auto convolve = [](const std::vector<double>& x, const std::vector<double>& y) {
     std::vector<double> z(x.size() + y.size() - 1, 0.0);
     for (std::size_t i = 0; i < x.size(); ++i)

@@ -34,6 +34,9 @@ struct ObjectBelief {
   int place(const Background& background) const;
   /// Marginal class distribution, given that it exists.
   std::vector<double> classes(const Background& background) const;
+  /// The leaf that stands for the object: that in the best world, else the likeliest.
+  const Leaf& shown() const;
+  /// When shown() was last given a detection.
   Utime last_seen() const;
 };
 
@@ -69,7 +72,7 @@ std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double mi
 
 /// Distribution of the number of anchors that exist, fit the description and are in the place
 /// (-1: anywhere): the Poisson-binomial inside each hypothesis, mixed over hypotheses, convolved
-/// over clusters. Entries beyond the last that matters (1e-12) are left out.
+/// over clusters. Entries beyond the last that matters (1e-15) are left out.
 std::vector<double> count_distribution(const Belief& belief, Utime at,
                                        const Description& description, int place,
                                        const Background& background);

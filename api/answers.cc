@@ -24,10 +24,13 @@ Json places_json(const ObjectBelief& object, const Background& background) {
   return out;
 }
 
+/// The expected number of objects like those asked for that were never detected: in the place that
+/// was asked for, else in each where it is at least kLeastShown.
 Json undetected_json(const Snapshot& snapshot, const Parameters& asked) {
   const Background& background = *snapshot.background;
   Json out = Json::array();
   for (int i = 0; i < static_cast<int>(background.knowledge.places.size()); ++i) {
+    if (asked.place >= 0 && i != asked.place) continue;
     const double expected =
         undetected(*snapshot.belief, snapshot.belief->utime, asked.description, i, background);
     if (expected >= kLeastShown)
@@ -78,6 +81,11 @@ Result<Json> answer_where(const HttpTarget& target, const Snapshot& snapshot) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     return a.object.p * a.match > b.object.p * b.match;
   });
+
+  // Who asks for one object asks, as to what has not been seen, for its like.
+  if (!asked->object.empty() && background.knowledge.class_attribute >= 0)
+    asked->description.terms.push_back(
+        {background.knowledge.class_attribute, candidates.front().object.shown().top_class()});
 
   Json answers = Json::array();
   for (const auto& [object, fit] : candidates) {

@@ -82,7 +82,7 @@ class FrameReader : public JsonFields {
                needed(value, field, "bearing", out.bearing) &&
                optional(value, field, "elevation", out.elevation);
       case View::Type::kFrustum:
-        return needed(value, field, "hfov", out.hfov) && needed(value, field, "vfov", out.vfov) &&
+        return needed(value, field, "hfov", out.hfov) && optional(value, field, "vfov", out.vfov) &&
                needed(value, field, "range", out.range);
       case View::Type::kPolygon:
         return needed(value, field, "points", out.points);
@@ -124,7 +124,7 @@ class FrameReader : public JsonFields {
   bool read(const json& value, const Field& field, PolarMeasurement& out) {
     return check_object(value, field) && needed(value, field, "range", out.range) &&
            needed(value, field, "bearing", out.bearing) &&
-           needed(value, field, "elevation", out.elevation) &&
+           optional(value, field, "elevation", out.elevation) &&
            optional_numbers(value, field, "variance", 3, out.variance);
   }
 

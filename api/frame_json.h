@@ -20,7 +20,8 @@ namespace anchord {
 ///                                     "size": {"mean": 0.12, "variance": 0.0004}}}]}
 ///
 /// Needed: utime, sensor, detections; of a pose position and orientation; of a detection either
-/// position or polar {range, bearing, elevation, variance}. A pose without covariance is exact, a
+/// position or polar {range, bearing, elevation, variance}. A pose without covariance is exact, an
+/// elevation left out of polar is 0, a
 /// sector without elevation sees all of it, an attribute with a member `mean` or `variance` is a
 /// scalar. Unknown members are ignored.
 ///

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -97,8 +98,18 @@ Result<Json> answer_hypotheses(const HttpTarget& target, const Snapshot& snapsho
         if (!d.is_null()) entry["differs"].push_back(std::move(d));
       }
     }
-    worlds.push_back(std::move(entry));
+    // Worlds that differ only in what does not show are one to whoever reads them.
+    const auto same = std::find_if(worlds.begin(), worlds.end(), [&](const Json& other) {
+      return other["differs"] == entry["differs"];
+    });
+    if (same == worlds.end())
+      worlds.push_back(std::move(entry));
+    else
+      (*same)["p"] = (*same)["p"].get<double>() + entry["p"].get<double>();
   }
+  if (worlds.size() > 1)
+    std::stable_sort(worlds.begin() + 1, worlds.end(),
+                     [](const Json& a, const Json& b) { return a["p"] > b["p"]; });
   return Json{{"utime", belief.utime},
               {"clusters", belief.clusters.size()},
               {"hypotheses", hypotheses},

@@ -54,6 +54,8 @@ Result<std::unique_ptr<LcmBus>> LcmBus::open(const std::string& requested) {
       message +=
           ": there is no multicast route, or the address is wrong; add a route with "
           "`ip link set lo multicast on` and `ip route add 224.0.0.0/4 dev lo`";
+    } else {
+      message += "; LCM knows udpm://, tcpq://, memq:// and file:// URLs, and empty is its default";
     }
     return Error{ErrorCode::kIo, "lcm", message};
   }

@@ -13,8 +13,7 @@ Json object_json(const ObjectBelief& object, const Background& background) {
            {"p", object.p},
            {"position", position_json(where.mean, background.dims)},
            {"covariance", covariance_json(where.covariance, background.dims)}};
-  const Leaf* leaf =
-      object.best >= 0 ? &object.versions[object.best].leaf : &object.versions.front().leaf;
+  const Leaf* leaf = &object.shown();
   out["velocity"] = position_json(position_of(*leaf).velocity, background.dims);
   out["attributes"] = attributes_json(object, background);
   out["last_seen"] = object.last_seen();
@@ -93,7 +92,7 @@ Result<Json> answer_object(const std::string& id, const HttpTarget& target,
     if (object.anchor->id() != id) continue;
     Json out{{"utime", snapshot.belief->utime}};
     out.update(object_json(object, background));
-    out["models"] = model_list(object.versions[std::max(object.best, 0)].leaf, background);
+    out["models"] = model_list(object.shown(), background);
     out["alternatives"] = alternatives_json(object, background);
     return out;
   }

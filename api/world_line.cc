@@ -8,18 +8,9 @@ namespace {
 
 constexpr double kLeastShown = 0.001;
 
-/// The version that stands for an object: its leaf in the best hypothesis, else its likeliest.
-const Leaf& shown_leaf(const ObjectBelief& object) {
-  if (object.best >= 0) return object.versions[object.best].leaf;
-  const auto likelier = [&](const auto& a, const auto& b) {
-    return a.weight(object.p) < b.weight(object.p);
-  };
-  return std::max_element(object.versions.begin(), object.versions.end(), likelier)->leaf;
-}
-
 Json object_json(const ObjectBelief& object, bool all, const Background& background) {
   const int dims = background.dims;
-  const Leaf& leaf = shown_leaf(object);
+  const Leaf& leaf = object.shown();
   const Kinematic& position = position_of(leaf);
   Json out{{"id", object.anchor->id()},
            {"p", object.p},
@@ -39,17 +30,19 @@ Json object_json(const ObjectBelief& object, bool all, const Background& backgro
   return out;
 }
 
-Json hypotheses_json(const Belief& belief, int count) {
+Json hypotheses_json(const Belief& belief, int count, const Background& background) {
   Json out = Json::array();
   for (const auto& cluster : belief.clusters) {
     Json hypotheses = Json::array();
     for (const Hypothesis& h : cluster->hypotheses) {
       if (static_cast<int>(hypotheses.size()) == count) break;
       Json members = Json::array();
-      for (std::size_t a = 0; a < h.leaf.size(); ++a)
-        if (h.leaf[a] != Hypothesis::kNoLeaf)
-          members.push_back({{"id", cluster->anchors[a].anchor->id()},
-                             {"p", cluster->anchors[a].leaves[h.leaf[a]]->existence}});
+      for (std::size_t a = 0; a < h.leaf.size(); ++a) {
+        if (h.leaf[a] == Hypothesis::kNoLeaf) continue;
+        Leaf leaf = *cluster->anchors[a].leaves[h.leaf[a]];
+        predict(leaf, belief.utime, background);
+        members.push_back({{"id", cluster->anchors[a].anchor->id()}, {"p", leaf.existence}});
+      }
       hypotheses.push_back({{"p", std::exp(h.log_weight)}, {"members", std::move(members)}});
     }
     out.push_back(std::move(hypotheses));
@@ -76,7 +69,7 @@ Json world_line(const Belief& belief, const Background& background,
             {"hypotheses", hypotheses},
             {"clusters", belief.clusters.size()}};
   if (options.hypotheses > 0)
-    line["cluster_hypotheses"] = hypotheses_json(belief, options.hypotheses);
+    line["cluster_hypotheses"] = hypotheses_json(belief, options.hypotheses, background);
   if (options.elapsed_us) line["elapsed_us"] = std::round(*options.elapsed_us * 10) / 10;
   return line;
 }

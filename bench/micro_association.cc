@@ -19,8 +19,8 @@ void BM_Assignment(benchmark::State& state) {
   Dice dice(1);
   std::vector<double> cost(n * (n + 1));
   for (double& c : cost) c = dice.uniform(0, 10);
-  Assignment assignment(n, n);
   for (auto _ : state) {
+    Assignment assignment(n, n);
     assignment.solve(cost);
     benchmark::DoNotOptimize(assignment.choice(0));
   }

@@ -21,7 +21,7 @@ ROOMS = {
     "api": {"core", "lcmtypes", "geometry", "models", "knowledge", "mht", "anchoring"},
 }
 # Programs and what exercises the rooms: they may include every room.
-FREE = {"daemon", "tools", "bench", "fuzz", "tests", "experiments"}
+FREE = {"daemon", "tools", "bench", "fuzz", "tests", "experiments", "clients"}
 # Libraries that belong to some rooms only: (headers, paths that may include them).
 LIBRARIES = [
     (r"sqlite3\.h", ["knowledge/"]),
@@ -30,7 +30,7 @@ LIBRARIES = [
         ["api/", "knowledge/configuration", "knowledge/json_reader", "perception/camera_file"]
         + ["tools/anchorctl"],
     ),
-    (r"lcm/.*|anchord/\w+_t\.hpp", ["lcmtypes/", "api/", "tools/"]),
+    (r"lcm/.*|anchord/\w+_t\.hpp", ["lcmtypes/", "api/", "tools/", "clients/"]),
     (r"opencv2/.*", ["perception/", "tools/"]),
     (
         r"thread|mutex|shared_mutex|atomic|condition_variable|future|stop_token|latch|barrier"

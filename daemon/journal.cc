@@ -184,6 +184,7 @@ Status Journal::append(const std::vector<Folded>& folded) {
 
 void Journal::commit() {
   if (Status done = log_->commit(); !done) return roll_back(done.error());
+  if (std::exchange(failing_, false)) spdlog::info("frames are durable again");
   batch_open_ = awaited_ = false;
   durable_ = world_;
   durable_sequence_ = sequence_;
@@ -198,7 +199,8 @@ void Journal::commit() {
 
 /// The batch cannot be kept: the belief goes back to the last one that is durable.
 void Journal::roll_back(const Error& why) {
-  spdlog::error("frames could not be made durable and are refused: {}", why.text());
+  if (!std::exchange(failing_, true))
+    spdlog::error("frames cannot be made durable and are refused: {}", why.text());
   log_->rollback();
   ++statistics_.commit_failures;
   batch_open_ = awaited_ = false;

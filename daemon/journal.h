@@ -114,6 +114,7 @@ class Journal {
   Clock::time_point batch_began_;
   bool batch_open_ = false;
   bool awaited_ = false;  ///< somebody waits for the open batch
+  bool failing_ = false;  ///< the last batch could not be made durable
 
   std::atomic<std::shared_ptr<const Belief>> published_;
 

@@ -68,8 +68,7 @@ HttpResponse status_answer(const StatusSources& from) {
            {"anchors", size.anchors},
            {"expected_count", size.expected},
            {"hypotheses", size.hypotheses},
-           {"clusters", belief->clusters.size()},
-           {"dropped_probability", belief->dropped}};
+           {"clusters", belief->clusters.size()}};
   out["frames"] = {{"accepted", s.accepted.load()}, {"repeated", s.repeated.load()},
                    {"refused", s.refused.load()},   {"overrun", s.overrun.load()},
                    {"late", s.late.load()},         {"lost", s.lost.load()}};

@@ -42,11 +42,13 @@ command_bench() {
   local benches bench
   mapfile -t benches < <(find build -maxdepth 1 -type f -executable -name '*_bench' | sort)
   ((${#benches[@]})) || fail "no benchmark was built: expected build/*_bench"
-  echo "machine: $(uname -n), $(machine_description)"
+  echo "machine: $(uname -n), $(machine_description), $(date -u +%F)"
+  local arguments
   for bench in "${benches[@]}"; do
-    echo
-    echo "$bench"
-    "$bench" "$@"
+    arguments=()
+    if [[ $bench == */micro_bench ]]; then arguments=("$@"); fi  # the one on Google Benchmark
+    printf '\n%s\n' "$bench"
+    within_multicast "$bench" "${arguments[@]}"
   done
 }
 

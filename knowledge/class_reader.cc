@@ -85,6 +85,15 @@ Arrival read_arrival(const JsonValue& value, const Knowledge& knowledge) {
   return arrival;
 }
 
+/// Whether transitions join tracked models that there are.
+bool fit(const std::vector<Transition>& transitions, const std::vector<BehaviourModel>& models) {
+  const auto tracked = [&](int m) {
+    return m < static_cast<int>(models.size()) && models[static_cast<std::size_t>(m)].tracked();
+  };
+  return std::all_of(transitions.begin(), transitions.end(),
+                     [&](const Transition& t) { return tracked(t.from) && tracked(t.to); });
+}
+
 /// A class: what `value` says, and else as `base` is.
 ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge& knowledge) {
   if (!value.object_of({"models", "transitions", "detection_probability", "arrival_rate",
@@ -93,7 +102,12 @@ ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge
   }
   if (const auto models = value.find("models")) {
     base.models = read_models(*models, knowledge);
-    base.transitions.clear();
+    if (!value.find("transitions") && !fit(base.transitions, base.models)) {
+      value.mistake_at(value.path_of("transitions"),
+                       "is taken from classes.default and does not fit the models of this class; "
+                       "give it transitions of its own, [] for none");
+      base.transitions.clear();
+    }
   }
   if (const auto transitions = value.find("transitions")) {
     base.transitions = read_transitions(*transitions, base.models);

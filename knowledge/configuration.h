@@ -60,8 +60,8 @@ class [[nodiscard]] Configuration {
 ///   0.01 (m/s)^2, beside it `somewhere` in the world at `rate` 0.001 /s;
 ///   `detection_probability` 0.9; `undetected_intensity` 0.01 per m^d, `arrival_rate` 1e-4 per
 ///   m^d and s, `departure_rate` 0; no `arrivals`, no `extent`.
-///   `transitions` count the models of the class that they stand in, so a class with `models` of
-///   its own inherits none.
+///   `transitions` count the models of the class that has them; a class with `models` of its own
+///   that those of `classes.default` do not fit must have its own.
 /// - a model: `position_psd` 0.001, `acceleration_psd` 0.1, `initial_velocity_variance` 0.01,
 ///   `place` the world, `rate` 0.001, `detectable` true, `initial_weight` 0 (1 for the first
 ///   tracked model where no model has one). Weights are normalised; somewhere models have none.

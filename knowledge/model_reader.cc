@@ -41,18 +41,18 @@ std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge
       break;
   }
   value.read("detectable", model.detectable);
-  weighted = weighted || value.find("initial_weight");
+  weighted = value.find("initial_weight").has_value();
   value.read("initial_weight", model.initial_weight, kNotNegative);
   return model;
 }
 
-void weigh(const JsonValue& value, bool weighted, std::vector<BehaviourModel>& models) {
-  if (!weighted) {
-    const auto first = std::find_if(models.begin(), models.end(),
-                                    [](const BehaviourModel& model) { return model.tracked(); });
-    if (first != models.end()) first->initial_weight = 1;
-    return;
-  }
+/// The first tracked model weighs 1 where nothing else is said of it.
+void weigh(const JsonValue& value, const std::vector<char>& weighted,
+           std::vector<BehaviourModel>& models) {
+  const auto first = std::find_if(models.begin(), models.end(),
+                                  [](const BehaviourModel& model) { return model.tracked(); });
+  if (first == models.end()) return;  // noted by read_models()
+  if (!weighted[static_cast<std::size_t>(first - models.begin())]) first->initial_weight = 1;
   double sum = 0;
   for (const BehaviourModel& model : models) sum += model.initial_weight;
   if (!(sum > 0)) value.mistake("at least one initial_weight must be above 0");
@@ -81,10 +81,13 @@ BehaviourModel default_model(BehaviourModel::Kind kind) {
 
 std::vector<BehaviourModel> read_models(const JsonValue& value, const Knowledge& knowledge) {
   std::vector<BehaviourModel> models;
-  bool weighted = false, all_read = value.json().is_array();
+  std::vector<char> weighted;  // whether a model says its initial weight
+  bool all_read = value.json().is_array();
   for (const JsonValue& entry : value.elements(kMostModels)) {
-    if (auto model = read_model(entry, knowledge, weighted)) {
+    bool says_weight = false;
+    if (auto model = read_model(entry, knowledge, says_weight)) {
       models.push_back(*model);
+      weighted.push_back(says_weight);
     } else {
       all_read = false;
     }

@@ -23,6 +23,7 @@ double Assignment::reduced(int z, int column, const std::vector<double>& cost) c
 }
 
 void Assignment::solve(const std::vector<double>& cost) {
+  *this = Assignment(detections_, leaves_);
   for (int z = 0; z < detections_; ++z) {
     double least = kInfinite;
     for (int l = 0; l <= leaves_; ++l) least = std::min(least, cost[z * (leaves_ + 1) + l]);

@@ -24,7 +24,8 @@ struct Change {
 std::uint64_t hash_of(const Change& change) {
   std::uint64_t x = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(change.anchor)) << 32) |
                     static_cast<std::uint32_t>(change.leaf);
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;  // splitmix64's finaliser
+  x += 0x9e3779b97f4a7c15u;  // splitmix64; not 0 for the first leaf of the first anchor
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
   return x ^ (x >> 31);
 }

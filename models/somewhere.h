@@ -21,6 +21,7 @@ struct Footprint {
   std::vector<int> cells;        ///< grid indices, ascending
   std::vector<double> share;     ///< of the region's area in each of them; sums to 1
   std::vector<int> position_of;  ///< by grid index: where in `cells` it stands, or -1
+  std::vector<Region> piece;     ///< what of the region lies in each cell
 
   /// The region must have a finite volume. The grid is that of the region's own bounding box,
   /// aligned to `world`.
@@ -46,9 +47,9 @@ class Somewhere {
   /// The density at a point, per m^dims; 0 outside the place.
   double density(const Eigen::Vector3d& point) const;
 
-  /// The density convolved with a measurement's noise, at its mean: exact for the uniform part;
-  /// by 5 x 5 equally probable points for what was looked at already, unless the noise is small
-  /// against a cell, when the value of the mean's cell is taken.
+  /// The density convolved with a measurement's noise, at its mean; in a 3-D world as if the noise
+  /// in height were independent of the plane's, where parts of the place were looked at already.
+  /// Where the noise is small against a cell and the mean is well inside, the mean's cell decides.
   double likelihood(const Gaussian& measurement) const;
   /// The same where the measurement's mass in the place is known.
   double likelihood(const Gaussian& measurement, double mass_in_place) const;

@@ -140,6 +140,10 @@ TEST_F(JournalTest, OtherContentOrAnOlderTimeIsAConflict) {
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().code, ErrorCode::kConflict);
     EXPECT_EQ(refused.error().field, "utime");
+    // At the same time, or before it: what is told differs.
+    EXPECT_EQ(refused.error().message.find("another frame") != std::string::npos,
+              wrong.utime == other.utime)
+        << refused.error().message;
   }
   EXPECT_EQ(journal->snapshot().belief, belief);
   EXPECT_EQ(statistics_.refused, 2u);
@@ -275,8 +279,7 @@ TEST_F(JournalTest, ARestoreCanBeCancelled) {
   auto log = FrameLog::open(folder_ / "data");
   ASSERT_TRUE(log.ok());
   int alive = 0;
-  Journal journal(World(scene()), *std::move(log), statistics_, times_,
-                  {{}, {}, [&] { ++alive; }});
+  Journal journal(World(scene()), *std::move(log), statistics_, times_, {{}, {}, [&] { ++alive; }});
   EXPECT_TRUE(journal.restore(std::atomic<bool>{true}).ok());
   EXPECT_EQ(alive, 1);
 }
@@ -287,9 +290,8 @@ TEST_F(JournalTest, TooManyMayNotWait) {
   const std::vector<Frame> half(Journal::kQueue / 2, frame_number(1));
   auto first = hand_in(*journal, half, true), second = hand_in(*journal, half, true);
   bool called = false;
-  EXPECT_FALSE(journal->submit({{frame_number(2)}, "test", false, [&](const auto&) {
-                                  called = true;
-                                }}));
+  EXPECT_FALSE(
+      journal->submit({{frame_number(2)}, "test", false, [&](const auto&) { called = true; }}));
   journal->start();
   EXPECT_EQ(first.get()->repeated, half.size() - 1);
   EXPECT_EQ(second.get()->repeated, half.size());

@@ -127,9 +127,9 @@ TEST(Configuration, ClassesTakeWhatIsMissingFromDefault) {
                 "arrivals": [{"place": "table", "rate": 0.1}]},
     "cup": {"departure_rate": 0.5},
     "box": {"models": [{"kind": "somewhere", "place": "kitchen", "rate": 0.3},
-                       {"kind": "constant_position", "initial_weight": 1},
+                       {"kind": "constant_position"},
                        {"kind": "constant_velocity", "initial_weight": 3, "detectable": false}],
-            "arrivals": []}})");
+            "transitions": [], "arrivals": []}})");
   ASSERT_EQ(knowledge.classes.size(), 3u);
   const ObjectClass &cup = knowledge.classes[0], &box = knowledge.classes[1];
   EXPECT_EQ(cup.name, "cup");
@@ -153,7 +153,7 @@ TEST(Configuration, ClassesTakeWhatIsMissingFromDefault) {
   EXPECT_EQ(box.models[1].initial_weight, 0.25);  // 1 of 4
   EXPECT_EQ(box.models[2].initial_weight, 0.75);
   EXPECT_FALSE(box.models[2].detectable);
-  EXPECT_TRUE(box.transitions.empty());  // they would count other models
+  EXPECT_TRUE(box.transitions.empty());
   EXPECT_TRUE(box.arrivals.empty());
   EXPECT_EQ(knowledge.classes[2].departure_rate, 0.25);  // not named at all
 }

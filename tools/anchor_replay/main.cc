@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
         .count();
   };
   const auto statistics = anchord::replay(world, **source, out, options, seconds);
-  if (out) out->flush();
+  if (out && !out->flush() && statistics) return fail(kFailed, output + " cannot be written");
   if (!statistics) return fail(kFailed, statistics.error().text());
   if (!stats.empty()) {
     std::ofstream to(stats);

@@ -1,0 +1,105 @@
+// What the default limits lose against the exact engine.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "tests/anchoring/random_scene.h"
+#include "tests/anchoring/small_world.h"
+
+namespace anchord {
+namespace {
+
+World folded(const enumeration::Scene& scene, const Limits& limits) {
+  Knowledge knowledge = scene.knowledge;
+  knowledge.limits = limits;
+  World world(knowledge);
+  apply(world, scene.frames);
+  return world;
+}
+
+constexpr Limits kNoLimits{0, 0, 1, 0, 0};
+
+/// What limits lose in one scene.
+struct Loss {
+  double p = 0;         ///< of the probability that an object exists, the worst of them
+  double position = 0;  ///< in standard deviations, of objects of p >= 0.1
+  double expected = 0;  ///< of the expected number of objects
+};
+
+Loss loss_of(const enumeration::Scene& scene, const Limits& limits) {
+  const World exact = folded(scene, kNoLimits), limited = folded(scene, limits);
+  std::map<std::uint64_t, ObjectBelief> kept;
+  for (auto& object : objects(limited)) kept.emplace(object.anchor->birth, object);
+  Loss loss;
+  for (const auto& [birth, object] : kept) loss.expected -= object.p;
+  for (const auto& truth : objects(exact)) {
+    const auto found = kept.find(truth.anchor->birth);
+    loss.expected += truth.p;
+    loss.p = std::max(loss.p, std::abs(truth.p - (found == kept.end() ? 0 : found->second.p)));
+    if (truth.p < 0.1 || found == kept.end()) continue;
+    const Gaussian a = truth.moments(*exact.background());
+    const Gaussian b = found->second.moments(*limited.background());
+    for (int i = 0; i < scene.knowledge.dims; ++i)
+      loss.position =
+          std::max(loss.position, std::abs(a.mean[i] - b.mean[i]) / std::sqrt(a.covariance(i, i)));
+  }
+  loss.expected = std::abs(loss.expected);
+  return loss;
+}
+
+struct Losses {
+  static constexpr int kScenes = 200;
+  int close = 0;  ///< scenes in which no probability of existence is off by 0.001
+  Loss worst, sum;
+};
+
+/// Over random scenes of at most 20,000 worlds, far more ambiguous than what sensors report.
+Losses losses(const Limits& limits) {
+  Losses out;
+  for (std::uint64_t seed = 0; seed < Losses::kScenes; ++seed) {
+    std::mt19937_64 random(seed);
+    enumeration::Variety variety = enumeration::random_variety(random);
+    variety.verification = variety.late = false;
+    const Loss loss = loss_of(enumeration::random_scene(random, variety), limits);
+    out.close += loss.p < 1e-3;
+    for (double Loss::*of : {&Loss::p, &Loss::position, &Loss::expected}) {
+      out.worst.*of = std::max(out.worst.*of, loss.*of);
+      out.sum.*of += loss.*of;
+    }
+  }
+  return out;
+}
+
+TEST(Limits, OffTheyLoseNothing) { EXPECT_EQ(losses(kNoLimits).worst.p, 0); }
+
+/// What lies beyond a gate of 0.9999 or below a weight of 1e-6 adds up over alternatives and
+/// frames.
+TEST(Limits, WeightsAndGatesLoseLittle) {
+  const Losses lost = losses({.max_hypotheses = 0, .scan_depth = 0});
+  EXPECT_LT(lost.worst.p, 0.01);
+  EXPECT_LT(lost.worst.expected, 0.01);
+  EXPECT_LT(lost.worst.position, 0.05);
+}
+
+TEST(Limits, MergingVersionsLosesNoMore) {
+  const Losses lost = losses({.max_hypotheses = 0});
+  EXPECT_LT(lost.worst.p, 0.01);
+  EXPECT_LT(lost.worst.expected, 0.01);
+  EXPECT_LT(lost.worst.position, 0.05);
+}
+
+/// 100 hypotheses of what may be thousands of equal weight: the worst scenes lose some percent.
+TEST(Limits, TheDefaultsLoseLittle) {
+  const Losses lost = losses(Limits{});
+  EXPECT_GE(lost.close, 0.9 * Losses::kScenes);
+  EXPECT_LT(lost.worst.p, 0.1);
+  EXPECT_LT(lost.worst.expected, 0.1);
+  EXPECT_LT(lost.worst.position, 0.1);
+  EXPECT_LT(lost.sum.p / Losses::kScenes, 2e-3);
+}
+
+}  // namespace
+}  // namespace anchord
