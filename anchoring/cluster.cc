@@ -11,7 +11,7 @@ namespace {
 
 /// Versions that differ by less are alike; what differs more is never merged, however rare: a far
 /// one moves the moments by more than its probability.
-constexpr double kAlike = 0.4;
+constexpr double kAlike = 0.3;
 /// What merging two alike versions may cost: moments are kept, so that what is lost is of second
 /// order in their difference, times how rare the rarer one is.
 constexpr double kNegligibleMerge = 1e-4;
