@@ -35,7 +35,7 @@ LIBRARIES = [
     (
         r"thread|mutex|shared_mutex|atomic|condition_variable|future|stop_token|latch|barrier"
         r"|semaphore|pthread\.h",
-        ["daemon/", "api/", "tools/"],
+        ["daemon/", "api/", "tools/", "clients/"],
     ),
 ]
 EXERCISE = ("tests/", "bench/", "fuzz/")  # may use any library
