@@ -60,7 +60,10 @@ check_paths() {
 # `return a = std::move(b)` under an if, sums that start at 0.
 check_analysis() {
   source_files | grep '\.cc$' | cppcheck --file-list=- -I . -j "$(nproc)" --quiet --std=c++20 \
-    --language=c++ --library=googletest --enable=warning,performance,portability --inline-suppr \
+    --language=c++ --library=googletest \
+    -D'TYPED_TEST(suite, name)=void suite##_##name()' \
+    -D'RC_GTEST_PROP(suite, name, arguments)=void suite##_##name arguments' \
+    --enable=warning,performance,portability --inline-suppr \
     --suppress=missingInclude --suppress=missingIncludeSystem --suppress=unknownMacro \
     --suppress=useInitializationList --suppress=uselessCallsSubstr \
     --suppress=containerOutOfBounds --suppress=accessMoved --suppress=invalidFunctionArg \

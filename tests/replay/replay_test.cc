@@ -186,7 +186,8 @@ TEST_F(Replay, StopsWhereAnLcmLogIsDamaged) {
 }
 
 TEST_F(Replay, AWrongConfigurationGetsALineForEveryMistake) {
-  write("world.json", R"({"world": {"dimensions": 4, "bounds": {"min": [0, 0, 0], "max": [6, 4, 3]}},
+  write("world.json",
+        R"({"world": {"dimensions": 4, "bounds": {"min": [0, 0, 0], "max": [6, 4, 3]}},
     "sensors": {"default": {"clutter_density": -1, "vieuw": {}}}})");
   EXPECT_EQ(run(kRun + "frames.jsonl"), 2);
   EXPECT_EQ(read("out"), "");
