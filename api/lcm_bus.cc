@@ -16,6 +16,8 @@
 namespace anchord {
 namespace {
 
+constexpr const char* kProviders[] = {"udpm://", "tcpq://", "memq://", "file://"};
+
 constexpr char kDefaultUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 constexpr long kReceiveBufferBytes = 4L << 20;
 constexpr int kQueuedMessages = 500;  // per channel, while a handler is busy; LCM's default is 30
@@ -57,7 +59,9 @@ Result<std::unique_ptr<LcmBus>> LcmBus::open(const std::string& requested) {
     } else {
       message += "; LCM knows udpm://, tcpq://, memq:// and file:// URLs, and empty is its default";
     }
-    return Error{ErrorCode::kIo, "lcm", message};
+    const bool known = std::any_of(std::begin(kProviders), std::end(kProviders),
+                                   [&](const char* provider) { return url.starts_with(provider); });
+    return Error{known ? ErrorCode::kIo : ErrorCode::kInvalid, "lcm", message};
   }
   const int wake = eventfd(0, EFD_CLOEXEC);
   if (wake < 0) {

@@ -40,7 +40,10 @@ int serve(const anchord::Knowledge& knowledge, const anchord::ServiceOptions& op
   std::signal(SIGPIPE, SIG_IGN);
 
   auto service = anchord::Service::open(knowledge, options);
-  if (!service) return fail(service.error().text());
+  if (!service) {
+    fail(service.error().text());
+    return service.error().code == anchord::ErrorCode::kInvalid ? kWrongCall : kFailed;
+  }
   std::atomic<bool> cancelled{false};
   anchord::Status started = anchord::Done{};
   std::thread starter([&] {

@@ -16,8 +16,8 @@ namespace anchord {
 namespace {
 
 /// The start fails with one line that has all of `words` in it; liblcm may say more before it.
-void expect_failure(DaemonProcess& daemon, const std::vector<std::string>& words) {
-  EXPECT_EQ(daemon.wait(), 1);
+void expect_failure(DaemonProcess& daemon, const std::vector<std::string>& words, int status = 1) {
+  EXPECT_EQ(daemon.wait(), status);
   const std::string errors = daemon.errors();
   const auto line = errors.find("anchord: ");
   ASSERT_NE(line, std::string::npos) << errors;
@@ -50,11 +50,11 @@ TEST(Start, WhatIsNoAddressOrNetwork) {
   DaemonProcess::Options no_address;
   no_address.http = "localhost";
   DaemonProcess without_port(folder, no_address);
-  expect_failure(without_port, {"localhost", "127.0.0.1:7780"});
+  expect_failure(without_port, {"localhost", "127.0.0.1:7780"}, 2);
   DaemonProcess::Options no_network;
   no_network.lcm = "nowhere://";
   DaemonProcess nowhere(folder, no_network);
-  expect_failure(nowhere, {"nowhere://", "udpm://"});
+  expect_failure(nowhere, {"nowhere://", "udpm://"}, 2);
 }
 
 TEST(Start, DataDirectoryThatCannotBe) {
