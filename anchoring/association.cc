@@ -13,6 +13,11 @@ namespace {
 constexpr int kMiss = -1;    // in place of a detection
 constexpr int kUnmade = -2;  // a child leaf that no hypothesis has asked for yet
 
+/// Merging makes room: up to this many times `max` associations are looked at before the best `max`
+/// are kept, as long as one more carries more than a thousandth of the weight so far.
+constexpr std::size_t kLookAhead = 4;
+constexpr double kWorthLookingAhead = -6.907755278982137;  // ln 0.001
+
 /// The clusters that detections tie together, as one: anchors in order, leaves numbered through.
 struct Tied {
   std::vector<const PredictedLeaf*> leaves;
@@ -181,13 +186,15 @@ std::vector<std::shared_ptr<const Cluster>> associate(
       h.leaf[a] = children.of(tied.first_leaf[a] + parent.leaf[a], given[i++], joint.anchors[a]);
     }
     joint.hypotheses.push_back(std::move(h));
-    if (limits.max_hypotheses > 0 &&
-        joint.hypotheses.size() >= static_cast<std::size_t>(limits.max_hypotheses))
+    const auto kept = static_cast<std::size_t>(limits.max_hypotheses);
+    if (kept > 0 && joint.hypotheses.size() >= kept &&
+        (joint.hypotheses.size() >= kLookAhead * kept ||
+         next->log_weight < total + kWorthLookingAhead))
       break;
   }
   merge_equal(joint.hypotheses);
-  prune(joint.hypotheses, 0, limits.min_weight);
   if (limits.scan_depth > 0) merge_alike(joint, background);
+  prune(joint.hypotheses, limits.max_hypotheses, limits.min_weight);
   return split(joint, background);
 }
 

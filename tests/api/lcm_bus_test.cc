@@ -113,7 +113,7 @@ TEST(LcmBus, RefusesWhatIsNoUrl) {
   for (const char* url : {"nowhere://", "udpm", "udpm://not-an-address:7667"}) {
     const auto bus = LcmBus::open(url);
     ASSERT_FALSE(bus.ok()) << url;
-    EXPECT_EQ(bus.error().code, ErrorCode::kIo);
+    EXPECT_EQ(bus.error().code, ErrorCode::kInvalid);
     EXPECT_NE(bus.error().message.find(url), std::string::npos);
   }
 }
