@@ -38,8 +38,9 @@ std::string target(int objects) {
   return "";
 }
 
-void run(int objects, std::uint64_t seed) {
+void run(int objects, double side_m, std::uint64_t seed) {
   anchord::bench::CrowdParameters parameters;
+  parameters.side_m = side_m;
   parameters.objects = objects;
   const anchord::bench::Crowd crowd = anchord::bench::simulate(parameters, seed);
   anchord::World world(anchord::bench::crowd_knowledge(parameters));
@@ -59,7 +60,7 @@ void run(int objects, std::uint64_t seed) {
   const auto percent = [&](long n) {
     return fixed(100 * static_cast<double>(n) / static_cast<double>(count.objects), 2);
   };
-  anchord::bench::print_row({std::to_string(objects), std::to_string(seed),
+  anchord::bench::print_row({std::to_string(objects), fixed(side_m, 0), std::to_string(seed),
                              fixed(wall.median_ms(), 3), fixed(wall.p99_ms(), 2),
                              fixed(wall.max_ms(), 2), fixed(cpu.median_ms(), 3),
                              fixed(cpu.p99_ms(), 2), std::to_string(count.switches),
@@ -69,21 +70,30 @@ void run(int objects, std::uint64_t seed) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<int> sizes;
-  for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
-  if (sizes.empty()) sizes = {20, 80, 160};
-  for (const int objects : sizes)
-    if (objects < 1) {
+  const anchord::bench::CrowdParameters defaults;
+  struct Scene {
+    int objects;
+    double side_m;
+  };
+  // The last has the density of the first.
+  std::vector<Scene> scenes{{20, defaults.side_m},
+                            {80, defaults.side_m},
+                            {160, defaults.side_m},
+                            {80, 2 * defaults.side_m}};
+  if (argc > 1) scenes.clear();
+  for (int i = 1; i < argc; ++i) scenes.push_back({std::atoi(argv[i]), defaults.side_m});
+  for (const Scene& scene : scenes)
+    if (scene.objects < 1) {
       std::fprintf(stderr, "arguments: numbers of objects, each at least 1\n");
       return 2;
     }
-  const anchord::bench::CrowdParameters p;
-  std::printf("%g Hz, %g s, %g x %g m, noise %g m, p_D %g, one clutter detection per frame\n\n",
-              p.rate_hz, p.duration_s, p.side_m, p.side_m, p.noise_deviation,
-              p.detection_probability);
-  anchord::bench::print_head({"objects", "seed", "median ms", "p99 ms", "max ms", "median CPU ms",
-                              "p99 CPU ms", "switches", "missed %", "stray %", "target"});
-  for (const int objects : sizes)
-    for (int seed = 1; seed <= kSeeds; ++seed) run(objects, seed);
+  std::printf("%g Hz, %g s, noise %g m, p_D %g, one clutter detection per frame\n\n",
+              defaults.rate_hz, defaults.duration_s, defaults.noise_deviation,
+              defaults.detection_probability);
+  anchord::bench::print_head({"objects", "side m", "seed", "median ms", "p99 ms", "max ms",
+                              "median CPU ms", "p99 CPU ms", "switches", "missed %", "stray %",
+                              "target"});
+  for (const Scene& scene : scenes)
+    for (int seed = 1; seed <= kSeeds; ++seed) run(scene.objects, scene.side_m, seed);
   return EXIT_SUCCESS;
 }
