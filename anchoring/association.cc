@@ -24,6 +24,7 @@ struct Tied {
   std::vector<int> first_leaf;  // per anchor
   std::vector<std::shared_ptr<const Anchor>> anchors;
   HypothesisSet hypotheses;
+  int leading = 0;  // the hypothesis that was shown; -1 if it is no longer there
 };
 
 Tied tie(const std::vector<PredictedCluster>& clusters, const Limits& limits) {
@@ -39,6 +40,16 @@ Tied tie(const std::vector<PredictedCluster>& clusters, const Limits& limits) {
                                                      limits.max_hypotheses, limits.min_weight);
   }
   if (tied.hypotheses.empty()) tied.hypotheses.push_back({0.0, {}});
+  const auto was_shown = [&](const Hypothesis& h) {
+    std::size_t at = 0;
+    for (const PredictedCluster& c : clusters)
+      for (const int leaf : c.cluster->hypotheses[c.cluster->leading].leaf)
+        if (h.leaf[at++] != leaf) return false;
+    return true;
+  };
+  const auto shown = std::find_if(tied.hypotheses.begin(), tied.hypotheses.end(), was_shown);
+  tied.leading =
+      shown == tied.hypotheses.end() ? -1 : static_cast<int>(shown - tied.hypotheses.begin());
   return tied;
 }
 
@@ -167,6 +178,7 @@ std::vector<std::shared_ptr<const Cluster>> associate(
   RankedAssociations ranked(problem, background.log_least_weight);
   double total = kLogZero;
   std::vector<int> given;  // per leaf of the parent: a detection or kMiss
+  bool heir = false;       // the most probable child of the world that was shown
   while (auto next = ranked.next()) {
     // Below this a weight stays below min_weight whatever else is found.
     if (next->log_weight < total + background.log_least_weight) break;
@@ -184,6 +196,10 @@ std::vector<std::shared_ptr<const Cluster>> associate(
     for (std::size_t a = 0, i = 0; a < old_anchors; ++a) {
       if (parent.leaf[a] == Hypothesis::kNoLeaf) continue;
       h.leaf[a] = children.of(tied.first_leaf[a] + parent.leaf[a], given[i++], joint.anchors[a]);
+    }
+    if (!heir && next->parent == tied.leading) {
+      heir = true;
+      for (std::size_t a = 0; a < old_anchors; ++a) joint.anchors[a].shown = h.leaf[a];
     }
     joint.hypotheses.push_back(std::move(h));
     const auto kept = static_cast<std::size_t>(limits.max_hypotheses);

@@ -24,6 +24,7 @@ struct Anchor {
 struct AnchorTree {
   std::shared_ptr<const Anchor> anchor;
   std::vector<std::shared_ptr<const Leaf>> leaves;
+  int shown = Hypothesis::kNoLeaf;  ///< the leaf in the world that is shown
 };
 
 /// Anchors whose associations do not interact with any other's, and the possible worlds among
@@ -31,10 +32,11 @@ struct AnchorTree {
 struct Cluster {
   std::vector<AnchorTree> anchors;
   HypothesisSet hypotheses;  ///< normalised, best first; leaf numbers index AnchorTree::leaves
+  int leading = 0;           ///< the hypothesis that the best world shows, see choose_leading()
 
   /// P(the anchor exists) = sum over hypotheses of P(h) r, at the time of its leaves.
   double existence(int anchor) const;
-  /// The anchor's leaf in the most probable hypothesis, or null.
+  /// The anchor's leaf in the best world, whatever its r, or null.
   const Leaf* best_leaf(int anchor) const;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "anchoring/leading.h"
 #include "mht/factors.h"
 
 namespace anchord {
@@ -67,7 +68,7 @@ double Cluster::existence(int anchor) const {
 }
 
 const Leaf* Cluster::best_leaf(int anchor) const {
-  const int leaf = hypotheses.front().leaf[anchor];
+  const int leaf = hypotheses[leading].leaf[anchor];
   return leaf == Hypothesis::kNoLeaf ? nullptr : anchors[anchor].leaves[leaf].get();
 }
 
@@ -87,6 +88,7 @@ void merge_alike(Cluster& cluster, const Background& background) {
     any = any || tree.leaves.size() < before;
     for (Hypothesis& h : cluster.hypotheses)
       if (h.leaf[a] != Hypothesis::kNoLeaf) h.leaf[a] = number[h.leaf[a]];
+    if (tree.shown != Hypothesis::kNoLeaf) tree.shown = number[tree.shown];
   }
   if (any) merge_equal(cluster.hypotheses);
 }
@@ -104,25 +106,27 @@ std::vector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
     auto part = std::make_shared<Cluster>();
     std::vector<int> used;
     for (std::size_t i = 0; i < factor.anchors.size(); ++i) {
-      const auto& leaves = cluster.anchors[factor.anchors[i]].leaves;
-      std::vector<int> number(leaves.size(), Hypothesis::kNoLeaf);
-      AnchorTree tree{cluster.anchors[factor.anchors[i]].anchor, {}};
+      const AnchorTree& whole = cluster.anchors[factor.anchors[i]];
+      std::vector<int> number(whole.leaves.size(), Hypothesis::kNoLeaf);
+      AnchorTree tree{whole.anchor, {}};
       for (Hypothesis& h : factor.hypotheses) {
         int& leaf = h.leaf[i];
         if (leaf == Hypothesis::kNoLeaf) continue;
         if (number[leaf] == Hypothesis::kNoLeaf) {
           number[leaf] = static_cast<int>(tree.leaves.size());
-          tree.leaves.push_back(leaves[leaf]);
+          tree.leaves.push_back(whole.leaves[leaf]);
         }
         leaf = number[leaf];
       }
       if (tree.leaves.empty()) continue;
+      if (whole.shown != Hypothesis::kNoLeaf) tree.shown = number[whole.shown];
       used.push_back(static_cast<int>(i));
       part->anchors.push_back(std::move(tree));
     }
     if (used.empty()) continue;
     part->hypotheses = used.size() == factor.anchors.size() ? std::move(factor.hypotheses)
                                                             : marginal(factor.hypotheses, used);
+    choose_leading(*part, background.dims);
     parts.push_back(std::move(part));
   }
   return parts;

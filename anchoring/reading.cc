@@ -207,7 +207,7 @@ std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double mi
       for (const auto& version : object.versions)
         object.p += version.probability * version.leaf.existence;
       object.p = std::min(object.p, 1.0);  // sums of rounded weights
-      object.best = cluster->hypotheses.front().leaf[a];
+      object.best = cluster->hypotheses[cluster->leading].leaf[a];
       object.in_best = object.best >= 0 && object.versions[object.best].leaf.existence >= 0.5;
       if (object.p >= min_p && object.p > 0) out.push_back(std::move(object));
     }

@@ -1,0 +1,84 @@
+#include "anchoring/leading.h"
+
+#include <vector>
+
+#include "anchoring/reading.h"
+#include "models/kinematic.h"
+
+namespace anchord {
+namespace {
+
+/// How many times what the world with the names kept weighs another must weigh to be shown.
+/// Chosen on simulated crowds: from 3 to 30 it hardly matters.
+constexpr double kClearly = 2.302585092994046;  // ln 10
+/// Positions closer than this, in standard deviations of their difference, are the same spot.
+constexpr double kSameSpot = 1;
+constexpr double kBelievedIn = 0.5;
+
+class Names {
+ public:
+  Names(const Cluster& cluster, int dims) : cluster_(cluster), dims_(dims) {}
+
+  /// Whether a hypothesis has each object about where the world shown so far has it.
+  bool kept_by(const Hypothesis& h) const {
+    for (std::size_t a = 0; a < h.leaf.size(); ++a) {
+      const int shown = cluster_.anchors[a].shown;
+      if (h.leaf[a] == shown || !stands(a, shown) || !stands(a, h.leaf[a])) continue;
+      if (apart(leaf(a, shown), leaf(a, h.leaf[a]))) return false;
+    }
+    return true;
+  }
+
+  /// Whether two hypotheses have the same objects in the same spots, only under other names.
+  bool only_differ(const Hypothesis& g, const Hypothesis& h) const {
+    std::vector<const Leaf*> in_g, in_h;
+    for (std::size_t a = 0; a < h.leaf.size(); ++a) {
+      if (stands(a, g.leaf[a]) != stands(a, h.leaf[a])) return false;
+      if (g.leaf[a] == h.leaf[a] || !stands(a, g.leaf[a])) continue;
+      in_g.push_back(&leaf(a, g.leaf[a]));
+      in_h.push_back(&leaf(a, h.leaf[a]));
+    }
+    for (const Leaf* one : in_g) {
+      auto like = in_h.begin();
+      while (like != in_h.end() && apart(*one, **like)) ++like;
+      if (like == in_h.end()) return false;
+      in_h.erase(like);
+    }
+    return true;
+  }
+
+ private:
+  const Leaf& leaf(std::size_t anchor, int l) const { return *cluster_.anchors[anchor].leaves[l]; }
+  bool stands(std::size_t anchor, int l) const {
+    return l != Hypothesis::kNoLeaf && leaf(anchor, l).existence >= kBelievedIn;
+  }
+  bool apart(const Leaf& a, const Leaf& b) const {
+    const double d2 = fit(position_of(a), position_of(b).position_density(), dims_).distance2;
+    return d2 > kSameSpot * kSameSpot;
+  }
+
+  const Cluster& cluster_;
+  int dims_;
+};
+
+int leading(const Cluster& cluster, int dims) {
+  const Hypothesis& best = cluster.hypotheses.front();
+  const Names names(cluster, dims);
+  if (names.kept_by(best)) return 0;
+  for (std::size_t h = 1; h < cluster.hypotheses.size(); ++h) {
+    const Hypothesis& other = cluster.hypotheses[h];
+    if (other.log_weight + kClearly < best.log_weight) break;
+    if (names.kept_by(other) && names.only_differ(best, other)) return static_cast<int>(h);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void choose_leading(Cluster& cluster, int dims) {
+  cluster.leading = cluster.hypotheses.size() > 1 ? leading(cluster, dims) : 0;
+  const Hypothesis& shown = cluster.hypotheses[cluster.leading];
+  for (std::size_t a = 0; a < cluster.anchors.size(); ++a) cluster.anchors[a].shown = shown.leaf[a];
+}
+
+}  // namespace anchord
