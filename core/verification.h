@@ -61,6 +61,9 @@ struct Task {
   bool operator==(const Task&) const = default;
 };
 
+/// Most triggers that may be joined in one task.
+inline constexpr std::size_t kMaxTags = 256;
+
 /// What a verification module answers.
 struct VerificationResult {
   enum class Outcome { kFound = 0, kMissing = 1, kOccluded = 2 };

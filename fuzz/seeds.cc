@@ -13,7 +13,11 @@
 #include "api/frame_json.h"
 #include "api/lcm_log.h"
 #include "lcmtypes/codec.h"
+#include "lcmtypes/event_codec.h"
+#include "lcmtypes/image_codec.h"
+#include "lcmtypes/verification_codec.h"
 #include "tests/lcmtypes/sample_frames.h"
+#include "tests/lcmtypes/sample_verification.h"
 
 namespace anchord {
 namespace {
@@ -49,6 +53,28 @@ void write(const std::filesystem::path& path, const Bytes& bytes) {
   if (!stream) throw std::runtime_error("cannot write " + path.string());
 }
 
+void write_verification(const std::filesystem::path& folder) {
+  Event missing;
+  missing.kind = Event::Kind::kMissing;
+  missing.regions = testing::two_regions();
+  write(folder / "event", encode(testing::full_event(), 1));
+  write(folder / "event_missing", encode(missing, 0));
+  write(folder / "trigger", encode(testing::full_trigger()));
+  write(folder / "trigger_cancelling", encode(testing::cancelling()));
+  write(folder / "task", encode(testing::full_task()));
+  write(folder / "task_empty", encode(TaskMessage{}));
+  VerificationResult found = testing::full_result();
+  found.frame->detections.resize(1);
+  write(folder / "result_found", encode(found));
+  write(folder / "result_missing", encode(testing::missing_result()));
+  write(folder / "pose", encode(testing::full_pose()));
+  ImageMessage image = testing::full_image();
+  write(folder / "image_bgr", encode(image));
+  image.format = ImageMessage::Format::kJpeg;
+  image.data.resize(2);
+  write(folder / "image_jpeg", encode(image));
+}
+
 void write_all(const std::filesystem::path& root) {
   nlohmann::json array = nlohmann::json::array();
   std::ostringstream log;
@@ -67,6 +93,7 @@ void write_all(const std::filesystem::path& root) {
   write(root / "frame_lcm" / "repeated", encode(repeated, 1));
   write(root / "frame_json" / "array", array.dump());
   write(root / "lcm_log" / "frames", log.str());
+  write_verification(root / "verification");
   for (const std::string target : {"/v1/status", "/v1/where?class=cup&color=blue"}) {
     query_t query{};
     query.id = 1;

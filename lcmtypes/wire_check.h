@@ -15,5 +15,11 @@ namespace anchord {
 /// not looked at. An error names the field, for example `detections[3].num_covariance`.
 Status check_frame(std::span<const std::uint8_t> bytes);
 Status check_query(std::span<const std::uint8_t> bytes);
+Status check_event(std::span<const std::uint8_t> bytes);
+Status check_trigger(std::span<const std::uint8_t> bytes);
+Status check_task(std::span<const std::uint8_t> bytes);
+Status check_result(std::span<const std::uint8_t> bytes);
+Status check_robot_pose(std::span<const std::uint8_t> bytes);
+Status check_image(std::span<const std::uint8_t> bytes);
 
 }  // namespace anchord
