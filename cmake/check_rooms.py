@@ -17,8 +17,10 @@ ROOMS = {
     "knowledge": {"core", "geometry"},
     "mht": {"core"},
     "anchoring": {"core", "geometry", "models", "knowledge", "mht"},
+    "maintenance": {"core", "geometry", "models", "knowledge", "mht", "anchoring"},
     "perception": {"core", "geometry", "knowledge"},
-    "api": {"core", "lcmtypes", "geometry", "models", "knowledge", "mht", "anchoring"},
+    "api": {"core", "lcmtypes", "geometry", "models", "knowledge", "mht"}
+    | {"anchoring", "maintenance"},
 }
 # Programs and what exercises the rooms: they may include every room.
 FREE = {"daemon", "tools", "bench", "fuzz", "tests", "experiments", "clients"}
@@ -38,7 +40,7 @@ LIBRARIES = [
         ["daemon/", "api/", "tools/", "clients/"],
     ),
 ]
-EXERCISE = ("tests/", "bench/", "fuzz/")  # may use any library
+EXERCISE = ("tests/", "bench/", "fuzz/", "experiments/")  # may use any library
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 

@@ -75,6 +75,14 @@ class [[nodiscard]] Configuration {
 ///   what is left evenly over the others, and is normalised; priors are kept above 1e-6. A true
 ///   symbol without a row in `confusion` is reported as itself. Where there is a confusion the
 ///   prior has no effect.
+/// - a sensor's `verification` (none: it is not used for verification tasks): `mount` {"position",
+///   "orientation"} of the sensor in the robot's base (default: the base itself), `moves_base`
+///   true, `cost` 0, `dwell` 0 s, `noise` {class: covariance, "default": covariance}, default the
+///   sensor's own position covariance. It needs a view that sees something, in the sensor's frame.
+/// - `maintenance`: `planner` "greedy" (or "lookahead"), `threshold` 1 nat, `omega` 0.75,
+///   `gain_norm` 5 nat, `cost_scale` the diagonal of the bounds, `speed` 0.5 m/s, `step` 1 s,
+///   `clearance` 0.3 m, `horizon` 4, `timeout` 60 s, `enabled` false, no `walls`
+///   ([[[x, y], [x, y]], ...]); `actions` grab and navigate verify "object", release "none".
 Configuration read_configuration(const std::filesystem::path& file);
 
 /// The same from memory. Includes are relative to `directory`; if that is empty, they are mistakes

@@ -140,8 +140,8 @@ void read_limits(const JsonValue& root, Knowledge& knowledge) {
 Knowledge read_knowledge(const nlohmann::json& document, ConfigurationMistakes& mistakes) {
   Knowledge knowledge;
   const JsonValue root(document, "", mistakes);
-  if (!root.object_of(
-          {"include", "world", "places", "attributes", "classes", "sensors", "hypotheses"})) {
+  if (!root.object_of({"include", "world", "places", "attributes", "classes", "sensors",
+                       "hypotheses", "maintenance"})) {
     return knowledge;
   }
   read_world(root, knowledge);
@@ -150,6 +150,7 @@ Knowledge read_knowledge(const nlohmann::json& document, ConfigurationMistakes& 
   read_classes(root, knowledge);
   read_sensors(root, knowledge);
   read_limits(root, knowledge);
+  read_maintenance(root, knowledge);
   return knowledge;
 }
 

@@ -17,6 +17,7 @@ void read_places(const JsonValue& root, Knowledge& knowledge);
 void read_attributes(const JsonValue& root, Knowledge& knowledge);
 void read_classes(const JsonValue& root, Knowledge& knowledge);
 void read_sensors(const JsonValue& root, Knowledge& knowledge);
+void read_maintenance(const JsonValue& root, Knowledge& knowledge);
 void read_limits(const JsonValue& root, Knowledge& knowledge);
 
 /// A model with the parameters that hold where the configuration gives none.
@@ -32,6 +33,13 @@ std::optional<std::vector<double>> read_distribution(const JsonValue& value,
 
 /// A sensor's view, in the shape that a frame gives it.
 std::optional<View> read_view(const JsonValue& value, int dims);
+
+/// How a sensor serves verification tasks: what `value` says, and else as it is.
+void read_verification(const JsonValue& value, const Knowledge& knowledge,
+                       Verification& verification);
+
+/// Fills in the sensor's own noise; notes what a sensor (`value`) for tasks lacks.
+void finish_verification(const JsonValue& value, Sensor& sensor);
 
 std::vector<std::string> names(const std::vector<Place>& places);
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,12 +14,14 @@
 
 namespace anchord {
 
-/// One accepted frame as it stands in the log.
+/// One accepted frame, or event, as it stands in the log.
 struct LoggedFrame {
+  enum class Kind { kFrame = 0, kEvent = 1 };
+  Kind kind = Kind::kFrame;
   std::int64_t sequence = 0;  ///< order of acceptance, from 1, strictly increasing
   Utime utime = 0;
   std::string robot, sensor;
-  std::vector<std::uint8_t> bytes;  ///< the frame's canonical encoding; the log does not read it
+  std::vector<std::uint8_t> bytes;  ///< its canonical encoding; the log does not read it
   bool operator==(const LoggedFrame&) const = default;
 };
 
@@ -30,6 +33,9 @@ struct LoggedFrame {
 /// (utime, sequence), and a frame may be accepted late; whoever folds the log in order of sequence
 /// puts late frames in their place just as when they came in, and reaches the same belief.
 ///
+/// Events stand in the same order among the frames. Beside them it keeps the newest record of each
+/// verification task.
+///
 /// Frames are appended in batches. A frame is durable when the commit() of its batch has returned
 /// without Error: it then survives a kill of the process and a loss of power. After an Error of
 /// append() or commit() nothing of the batch is kept, every further append() and commit() is
@@ -39,7 +45,7 @@ struct LoggedFrame {
 class FrameLog {
  public:
   /// The format that this program writes; kept in the database's `user_version`.
-  static constexpr int kVersion = 1;
+  static constexpr int kVersion = 2;
 
   /// Opens the log in `directory` and creates both if missing. `max_bytes` bounds the database's
   /// size, 0: by the disk alone; at the bound appends fail as on a full disk.
@@ -68,17 +74,30 @@ class FrameLog {
 
   enum class Presence { kNo, kSame, kDifferent };
   /// Whether the sensor has a frame of that utime, and if so, whether with these bytes.
+  /// Frames only.
   Result<Presence> contains(std::string_view robot, std::string_view sensor, Utime utime,
                             const std::vector<std::uint8_t>& bytes);
   /// The latest utime of the sensor's frames; nothing if it has none.
   Result<std::optional<Utime>> latest(std::string_view robot, std::string_view sensor);
-  /// Every frame with `sequence >= from_sequence`, in order of sequence, until the callback says
-  /// false. The callback must not append.
+  /// Whether the log has this event.
+  Result<bool> contains_event(Utime utime, const std::vector<std::uint8_t>& bytes);
+
+  /// Keeps the newest record of a task, in the open batch, or begins one.
+  Status put_task(std::int64_t id, const std::vector<std::uint8_t>& bytes);
+  /// Forgets all but the newest `count` tasks, in the open batch, if there is one.
+  Status keep_tasks(std::int64_t count);
+  /// The records of all tasks, in order of id, until the callback says false.
+  Status for_each_task(
+      const std::function<bool(std::int64_t id, std::span<const std::uint8_t>)>& callback);
+
+  /// Every frame and event with `sequence >= from_sequence`, in order of sequence, until the
+  /// callback says false. The callback must not append.
   Status for_each(std::int64_t from_sequence,
                   const std::function<bool(const LoggedFrame&)>& callback);
 
  private:
   struct Store;
+  Status begin_batch();
   explicit FrameLog(std::unique_ptr<Store> store);
   std::unique_ptr<Store> store_;
 };

@@ -9,6 +9,7 @@
 
 #include "core/frame.h"
 #include "geometry/region.h"
+#include "knowledge/maintenance.h"
 
 namespace anchord {
 
@@ -25,6 +26,7 @@ struct BehaviourModel {
   double rate = 0;            ///< somewhere: 1/s at which every tracked model enters it
   double initial_weight = 0;  ///< in a new anchor; those of a class sum to 1, somewhere has 0
   bool detectable = true;
+  bool implied = false;  ///< somewhere: not configured; a leaf has it only after an event
 
   bool tracked() const { return kind != Kind::kSomewhere; }
 };
@@ -98,6 +100,7 @@ struct Sensor {
   std::vector<std::vector<std::vector<double>>> confusion;
   double pose_floor = 0;  ///< m^2
   double identity_doubt = 0.01;
+  std::optional<Verification> verification;  ///< none: not used for tasks
 };
 
 /// What bounds the work. All off (0; gate 1): the engine is exact.
@@ -123,6 +126,7 @@ struct Knowledge {
   std::vector<Sensor> sensors;       ///< the named ones
   Sensor default_sensor;
   Limits limits;
+  Maintenance maintenance;
 
   int find_place(std::string_view name) const;      ///< or -1
   int find_attribute(std::string_view name) const;  ///< or -1

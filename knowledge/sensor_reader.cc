@@ -113,7 +113,7 @@ void read_confusion(const JsonValue& value, const Knowledge& knowledge, Sensor& 
 /// A sensor: what `value` says, and else as `draft` is.
 Draft read_sensor(const JsonValue& value, Draft draft, const Knowledge& knowledge) {
   if (!value.object_of({"clutter_density", "detection_probability", "view", "noise", "prior",
-                        "confusion", "pose_floor", "identity_doubt"})) {
+                        "confusion", "pose_floor", "identity_doubt", "verification"})) {
     return draft;
   }
   Sensor& sensor = draft.sensor;
@@ -128,6 +128,13 @@ Draft read_sensor(const JsonValue& value, Draft draft, const Knowledge& knowledg
   if (const auto prior = value.find("prior")) read_prior(*prior, knowledge, sensor);
   if (const auto confusion = value.find("confusion")) {
     read_confusion(*confusion, knowledge, sensor);
+  }
+  if (const auto verification = value.find("verification")) {
+    if (!sensor.verification) {
+      sensor.verification.emplace();
+      sensor.verification->noise.resize(knowledge.classes.size());
+    }
+    read_verification(*verification, knowledge, *sensor.verification);
   }
   return draft;
 }
@@ -187,11 +194,14 @@ void read_sensors(const JsonValue& root, Knowledge& knowledge) {
     base = read_sensor(*entry, std::move(base), knowledge);
   }
   knowledge.default_sensor = finished(base, "default", knowledge);
+  knowledge.default_sensor.verification.reset();  // a task names its sensor
   if (!section) return;
   if (section->json().size() > kMostSensors + 1) section->mistake("has over 100 sensors");
   for (const auto& [name, entry] : section->members()) {
     if (name == "default" || !check_name(entry, name)) continue;
-    knowledge.sensors.push_back(finished(read_sensor(entry, base, knowledge), name, knowledge));
+    Sensor sensor = finished(read_sensor(entry, base, knowledge), name, knowledge);
+    finish_verification(entry, sensor);
+    knowledge.sensors.push_back(std::move(sensor));
   }
 }
 

@@ -122,6 +122,15 @@ double Somewhere::mass(const std::vector<double>& visible) const {
   return std::min(sum, 1.0);
 }
 
+double Somewhere::entropy() const {
+  double sum = 0;
+  if (looked_at_)
+    for (std::size_t i = 0; i < footprint_->share.size(); ++i)
+      if (const double height = relative(i); height > 0)
+        sum -= footprint_->share[i] * height * std::log(height);
+  return sum + std::log(footprint_->volume);
+}
+
 void Somewhere::enter(double weight, double entering) {
   weight_looked_ *= weight / (weight + entering);
   if (weight_looked_ == 0) looked_at_.reset();

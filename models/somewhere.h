@@ -62,6 +62,9 @@ class Somewhere {
   /// Mass that enters is uniform: gamma <- (w gamma + dw U) / (w + dw). Weights >= 0, dw > 0.
   void enter(double weight, double entering);
 
+  /// Differential entropy, nat: exact, the density is constant on pieces.
+  double entropy() const;
+
   /// After a miss: the share p of the density in view goes, and the rest is normalised.
   void miss(double p, const std::vector<double>& visible);
 
