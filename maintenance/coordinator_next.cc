@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "maintenance/coordinator.h"
+#include "maintenance/roi.h"
+
+namespace anchord {
+namespace {
+
+constexpr double kLeastExistence = 0.1;  // of what the coordinator sets out for by itself
+
+/// Whether an id given earlier is this anchor's: it may have got its name since.
+bool is_called(const Anchor& anchor, const std::string& id) {
+  return anchor.id() == id || "new-" + std::to_string(anchor.birth) == id;
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+std::string why(const Action& action, const Maintenance& settings) {
+  return std::string(settings.planner == Maintenance::Planner::kGreedy ? "greedy" : "lookahead") +
+         ": gain " + number(action.gain) + " nat over " + number(action.distance) + " m, utility " +
+         number(action.utility) + " (of " + std::to_string(action.considered) + " compared)";
+}
+
+void fill_in(Task& task, const Action& action) {
+  task.sensor = action.sensor;
+  task.viewpoint = action.viewpoint.pose();
+  task.gain_nat = action.gain;
+  task.cost = action.cost;
+  task.utility = action.utility;
+}
+
+}  // namespace
+
+/// What next() reads of the belief, once and only if something is to be issued.
+class Coordinator::Reading {
+ public:
+  Reading(const Belief& belief, Utime at, const Background& background)
+      : background_(background),
+        objects_(read_objects(belief, std::max(at, belief.utime), 0, background)) {}
+
+  const ObjectBelief* find(const std::string& id) const {
+    const auto found = std::find_if(objects_.begin(), objects_.end(), [&](const auto& object) {
+      return is_called(*object.anchor, id) && !object.versions.empty();
+    });
+    return found == objects_.end() ? nullptr : &*found;
+  }
+
+  const std::vector<ObjectBelief>& objects() const { return objects_; }
+
+  void describe(Task& task, const ObjectBelief& object, Utime now) const {
+    const Leaf& shown = object.shown();
+    const ObjectClass& object_class = background_.object_class(shown.top_class());
+    task.object = object.anchor->id();
+    task.object_class = object_class.name;
+    task.extent = {object_class.extent.x(), object_class.extent.y(), object_class.extent.z()};
+    task.regions = regions_of(object, background_);
+    task.appearance = appearance_of(object, background_);
+    task.state = Task::State::kIssued;
+    task.issued = now;
+  }
+
+ private:
+  const Background& background_;
+  const std::vector<ObjectBelief> objects_;
+};
+
+bool Coordinator::busy(const std::string& robot) const {
+  return std::any_of(active_.begin(), active_.end(), [&](const auto& entry) {
+    return entry.second.state == Task::State::kIssued && entry.second.robot == robot;
+  });
+}
+
+void Coordinator::issue_triggered(Task& task, const ObjectBelief& object, const Reading& reading,
+                                  const RobotPose* robot, Utime now) {
+  reading.describe(task, object, now);
+  task.sensor = task.wanted_sensor;
+  if (!robot) return;
+  task.robot = robot->robot;
+  const std::vector<Subject> subject{subject_of(object, *background_)};
+  if (const auto action = choose_for(0, task.wanted_sensor, subject, *robot, site_))
+    fill_in(task, *action);
+}
+
+std::optional<Task> Coordinator::own_choice(const Reading& reading, const RobotPose& robot,
+                                            Utime now) {
+  std::set<std::string> taken;
+  for (const auto& [id, task] : active_) taken.insert(task.object);
+  std::erase_if(aside_, [&](const auto& entry) { return entry.second <= now; });
+  std::vector<Subject> subjects;
+  std::vector<const ObjectBelief*> objects;
+  for (const ObjectBelief& object : reading.objects()) {
+    if (object.p < kLeastExistence) continue;
+    subjects.push_back(subject_of(object, *background_));
+    subjects.back().target =
+        !taken.contains(subjects.back().id) && !aside_.contains(subjects.back().id);
+    objects.push_back(&object);
+  }
+  const auto action = choose(subjects, robot, site_, limits_);
+  if (!action) return std::nullopt;
+  Task task;
+  task.id = ++last_id_;
+  task.robot = robot.robot;
+  task.created = now;
+  // The way there counts in, twice: what a plan takes is an estimate.
+  task.deadline = now + from_seconds(site_.settings.timeout + 2 * action->duration);
+  reading.describe(task, *objects[static_cast<std::size_t>(action->subject)], now);
+  fill_in(task, *action);
+  task.reason = why(*action, site_.settings);
+  return active_[task.id] = task;
+}
+
+std::vector<Task> Coordinator::next(Utime now, const Belief& belief,
+                                    const std::vector<RobotPose>& robots) {
+  std::vector<Task> changed;
+  std::optional<Reading> reading;
+  const auto read = [&]() -> const Reading& {
+    if (!reading) reading.emplace(belief, now, *background_);
+    return *reading;
+  };
+  std::vector<const RobotPose*> free;
+  for (const RobotPose& robot : robots)
+    if (!busy(robot.robot)) free.push_back(&robot);
+  /// The free robot a task may go to; null: none that has a pose.
+  const auto robot_for = [&](const std::string& name) {
+    return std::find_if(free.begin(), free.end(), [&](const RobotPose* robot) {
+      return name.empty() || robot->robot == name;
+    });
+  };
+  std::vector<std::int64_t> waiting;  // in order of arrival
+  for (const auto& [id, task] : active_)
+    if (task.state == Task::State::kQueued) waiting.push_back(id);
+  for (const std::int64_t id : waiting) {
+    Task& task = active_.at(id);
+    const auto robot = robot_for(task.robot);
+    const bool has_pose = robot != free.end();
+    const bool known = std::any_of(robots.begin(), robots.end(), [&](const RobotPose& pose) {
+      return task.robot.empty() || pose.robot == task.robot;
+    });
+    if (!has_pose && (known || busy(task.robot))) continue;
+    const ObjectBelief* object = read().find(task.object);
+    if (!object) {
+      changed.push_back(finish(id, Task::State::kCancelled, now, "there is no such object now"));
+      continue;
+    }
+    issue_triggered(task, *object, read(), has_pose ? *robot : nullptr, now);
+    if (has_pose) free.erase(robot);
+    changed.push_back(task);
+  }
+  if (!site_.settings.enabled || site_.eyes.empty()) return changed;
+  for (const RobotPose* robot : free)
+    if (auto task = own_choice(read(), *robot, now)) changed.push_back(std::move(*task));
+  return changed;
+}
+
+}  // namespace anchord
