@@ -170,7 +170,8 @@ std::vector<std::shared_ptr<const Cluster>> associate(
     auto leaf = birth(detections[z], frame, origins[detections[z]], belief.frames, background);
     if (!leaf) continue;
     anchor_of[z] = static_cast<int>(joint.anchors.size());
-    auto anchor = std::make_shared<const Anchor>(Anchor{belief.births + detections[z] + 1, ""});
+    auto anchor = std::make_shared<const Anchor>(
+        Anchor{belief.births + detections[z] + 1, "", "", std::nullopt});
     joint.anchors.push_back({std::move(anchor), {std::move(leaf)}});
   }
 

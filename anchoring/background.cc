@@ -1,6 +1,7 @@
 #include "anchoring/background.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
@@ -10,8 +11,24 @@
 namespace anchord {
 namespace {
 
+/// Every class with a `somewhere`: an object that was looked for in vain, or that somebody moved,
+/// must be somewhere. One that is not configured is never entered otherwise.
+Knowledge with_somewhere(Knowledge knowledge) {
+  for (ObjectClass& c : knowledge.classes) {
+    const bool has = std::any_of(c.models.begin(), c.models.end(),
+                                 [](const BehaviourModel& m) { return !m.tracked(); });
+    if (has) continue;
+    BehaviourModel lost;
+    lost.kind = BehaviourModel::Kind::kSomewhere;
+    lost.implied = true;
+    c.models.push_back(lost);
+  }
+  return knowledge;
+}
+
 Background::Dynamics dynamics_of(const ObjectClass& c) {
-  const int n = static_cast<int>(c.models.size());
+  // An implied model is the last.
+  const int n = static_cast<int>(c.models.size()) - (c.models.back().implied ? 1 : 0);
   Background::Dynamics d;
   d.rates = ModelMatrix::Zero(n, n);
   for (int to = 0; to < n; ++to)
@@ -57,7 +74,7 @@ std::vector<double> concentrated(const ObjectClass& c, const Background& b) {
 }  // namespace
 
 Background::Background(Knowledge k)
-    : knowledge(std::move(k)),
+    : knowledge(with_somewhere(std::move(k))),
       dims(knowledge.dims),
       grid(Grid::over(knowledge.bounds_min, knowledge.bounds_max, knowledge.cell)),
       tiling(std::make_shared<Tiling>(grid)) {
@@ -74,6 +91,12 @@ Background::Background(Knowledge k)
   gate_distance2 = gate < 1 ? boost::math::quantile(boost::math::chi_squared(dims), gate)
                             : std::numeric_limits<double>::infinity();
   log_least_weight = std::log(knowledge.limits.min_weight);
+}
+
+int Background::place_of(const Footprint& footprint) const {
+  const auto it = std::find_if(footprints_.begin(), footprints_.end(),
+                               [&](const auto& kept) { return kept.get() == &footprint; });
+  return static_cast<int>(it - footprints_.begin()) - 1;
 }
 
 void Background::compare_places() {

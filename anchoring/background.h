@@ -37,6 +37,8 @@ struct Background {
   const std::shared_ptr<const Footprint>& footprint(int place) const {
     return footprints_[place + 1];
   }
+  /// The place that a footprint is of; -1: the world's bounds.
+  int place_of(const Footprint& footprint) const;
   /// Footprint::overlap() of one of these footprints with a place (-1: the bounds).
   const std::vector<double>& overlap(const Footprint& footprint, int place) const {
     return overlaps_.at(&footprint)[place + 1];

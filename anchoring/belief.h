@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "anchoring/leaf.h"
@@ -15,9 +17,12 @@ namespace anchord {
 struct Anchor {
   std::uint64_t birth = 0;  ///< counts anchors in order of birth (frame, then detection)
   std::string name;         ///< `cup-12`; empty until it has p >= 0.5 or stands in a best world
+  std::string alias;        ///< what people call it, or empty
+  std::optional<std::string> holder;  ///< the robot that holds it, if one does
 
   /// The name, or `new-N` before it has one.
   std::string id() const { return name.empty() ? "new-" + std::to_string(birth) : name; }
+  bool is_called(std::string_view text) const { return text == id() || text == alias; }
 };
 
 /// An anchor with its leaves: one for each history of associations that is kept.
@@ -40,6 +45,14 @@ struct Cluster {
   const Leaf* best_leaf(int anchor) const;
 };
 
+/// What an event has put aside, should it be undone.
+struct SetAside {
+  std::int64_t number = 0;                              ///< of the event
+  std::vector<std::shared_ptr<const Cluster>> anchors;  ///< as they were, each on its own
+  std::uint64_t birth = 0;  ///< of the anchor that was named, or that the others were joined in
+  std::optional<std::string> alias;  ///< that it had, if it was named
+};
+
 /// All that is believed after some frames. A value that shares what did not change: copying one
 /// costs a pointer for each cluster. Leaves are lazy: each holds for its own time.
 struct Belief {
@@ -50,6 +63,7 @@ struct Belief {
   std::vector<UndetectedIntensity> undetected;  ///< per class
   std::uint64_t births = 0;
   std::vector<std::uint64_t> names;  ///< given so far, per class
+  std::vector<SetAside> set_aside;   ///< by the newest events that can be undone
 
   /// Seconds since the start, as the undetected intensities count them.
   double seconds(Utime at) const { return seconds_between(start, at); }

@@ -32,7 +32,7 @@ struct Group {
 
 double log_gain(const PredictedLeaf& predicted, const Anchor& anchor, const MapDetection& z,
                 const Origin& origin, const Sensor& sensor, const Background& background) {
-  const bool named = !z.object.empty() && anchor.id() == z.object;
+  const bool named = !z.object.empty() && anchor.is_called(z.object);
   const Leaf& leaf = predicted.leaf;
   if (leaf.existence <= 0) return kLogZero;
   const double log_g = log_likelihood(leaf, z, sensor.detection_probability, !named, background);

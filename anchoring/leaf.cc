@@ -27,7 +27,7 @@ void flow(Leaf& leaf, double dt, const Background& background) {
   const auto& models = background.object_class(leaf.model_class).models;
   const ModelMatrix p = transition_probabilities(dynamics.rates, dt);
   const auto before = leaf.models;
-  const int n = static_cast<int>(before.size());
+  const int n = static_cast<int>(dynamics.rates.rows());  // a lost model neither gives nor takes
   for (int to = 0; to < n; ++to) {
     double weight = before[to].weight * p(to, to);
     for (int from = 0; from < n; ++from) {
@@ -124,7 +124,7 @@ const AttributeBelief* Leaf::attribute(int index) const {
 void predict(Leaf& leaf, Utime utime, const Background& background) {
   const double dt = seconds_between(leaf.utime, utime);
   leaf.utime = utime;
-  if (dt == 0) return;
+  if (dt == 0 || leaf.held) return;
   const auto before = leaf.classes;
   double stays = 0;
   bool leaves = false;

@@ -36,6 +36,7 @@ struct Leaf {
   boost::container::small_vector<ModelState, 2> models;  ///< in the order of that class
   std::vector<AttributeBelief> attributes;               ///< those reported, ascending
   std::optional<double> yaw;                             ///< last reported, map frame
+  bool held = false;  ///< by a robot: it stays where that is, and a miss says nothing
   Utime utime = 0;
   Utime last_seen = 0;
   /// Which detections it was given in the last scans, as frame number << 16 | detection, ascending.

@@ -19,19 +19,22 @@ Kinematic moments(const ModelState& state, const BehaviourModel& target, int dim
 int heir(const BehaviourModel& old, const std::vector<BehaviourModel>& models,
          std::vector<char>& taken) {
   for (std::size_t m = 0; m < models.size(); ++m)
-    if (!taken[m] && models[m].kind == old.kind && models[m].place == old.place) {
+    if (!taken[m] && models[m].kind == old.kind && models[m].place == old.place &&
+        (old.implied || !models[m].implied)) {
       taken[m] = 1;
       return static_cast<int>(m);
     }
   for (std::size_t m = 0; m < models.size(); ++m)
-    if (models[m].tracked() == old.tracked()) return static_cast<int>(m);
+    if (models[m].tracked() == old.tracked() && (old.implied || !models[m].implied))
+      return static_cast<int>(m);
   for (std::size_t m = 0; m < models.size(); ++m)
     if (models[m].tracked()) return static_cast<int>(m);
   return 0;
 }
 
-/// Adds weight and density to a model that has `to.weight` of its own.
-void take_over(ModelState& to, const ModelState& from, const BehaviourModel& model, bool same_place,
+/// Adds weight and density to a model that has `to.weight` of its own. `as_it_is`: a `somewhere`
+/// over the same place, or over one that an event has told.
+void take_over(ModelState& to, const ModelState& from, const BehaviourModel& model, bool as_it_is,
                int dims) {
   if (model.tracked()) {
     const Kinematic arriving = moments(from, model, dims);
@@ -42,7 +45,7 @@ void take_over(ModelState& to, const ModelState& from, const BehaviourModel& mod
       density = arriving;
   } else if (from.weight > 0) {
     auto& density = std::get<Somewhere>(to.density);
-    if (!same_place)
+    if (!as_it_is)
       density.enter(to.weight, from.weight);  // uniform over the other place
     else if (to.weight > 0)
       density =
@@ -80,7 +83,9 @@ void follow_class(Leaf& leaf, const Background& background) {
   const auto old = leaf.models;
   const int old_top = leaf.top_model();
   leaf.models.clear();
+  const bool lost = old_models[old.size() - 1].implied;
   for (const auto& model : models) {
+    if (model.implied && !lost) break;
     if (model.tracked())
       leaf.models.push_back({0, moments(old[old_top], model, background.dims)});
     else
@@ -89,10 +94,14 @@ void follow_class(Leaf& leaf, const Background& background) {
   std::vector<char> taken(models.size(), 0);
   for (std::size_t m = 0; m < old.size(); ++m) {
     const int to = heir(old_models[m], models, taken);
-    const bool same_place = !old_models[m].tracked() && !models[to].tracked() &&
-                            old_models[m].place == models[to].place;
+    bool as_it_is = false;
+    if (!old_models[m].tracked() && !models[to].tracked()) {
+      const auto& place = std::get<Somewhere>(old[m].density).footprint();
+      as_it_is = place == std::get<Somewhere>(leaf.models[to].density).footprint() ||
+                 place != background.footprint(old_models[m].place);
+    }
     if (old[m].weight > 0 || taken[to])
-      take_over(leaf.models[to], old[m], models[to], same_place, background.dims);
+      take_over(leaf.models[to], old[m], models[to], as_it_is, background.dims);
   }
   leaf.model_class = top;
 }
@@ -135,8 +144,8 @@ Leaf merge(double weight_a, const Leaf& a, double weight_b, const Leaf& b,
 }
 
 double difference(const Leaf& a, const Leaf& b, const Background& background) {
-  if (a.model_class != b.model_class || a.utime != b.utime ||
-      a.attributes.size() != b.attributes.size())
+  if (a.model_class != b.model_class || a.utime != b.utime || a.held != b.held ||
+      a.models.size() != b.models.size() || a.attributes.size() != b.attributes.size())
     return 1;
   double sum = std::abs(a.existence - b.existence);
   for (std::size_t m = 0; m < a.models.size() && sum < 1; ++m) {
@@ -144,7 +153,13 @@ double difference(const Leaf& a, const Leaf& b, const Background& background) {
     sum += std::abs(wa - wb);
     const auto *ka = std::get_if<Kinematic>(&a.models[m].density),
                *kb = std::get_if<Kinematic>(&b.models[m].density);
-    if (!ka || wa <= 0 || wb <= 0) continue;
+    if (wa <= 0 || wb <= 0) continue;
+    if (!ka) {
+      if (std::get<Somewhere>(a.models[m].density).footprint() !=
+          std::get<Somewhere>(b.models[m].density).footprint())
+        return 1;
+      continue;
+    }
     sum += std::max(wa, wb) * difference(*ka, *kb, background.dims);
   }
   for (std::size_t c = 0; c < a.classes.size(); ++c)

@@ -129,6 +129,7 @@ Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double 
   scale_to_one(leaf.classes);
   leaf.model_class = leaf.top_class();
   for (const BehaviourModel& model : background.object_class(leaf.model_class).models) {
+    if (model.implied) break;
     if (!model.tracked()) {
       leaf.models.push_back({model.initial_weight, Somewhere(background.footprint(model.place))});
       continue;

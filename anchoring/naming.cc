@@ -32,8 +32,9 @@ void name_anchors(Belief& belief, std::size_t first_cluster, const Background& b
     AnchorTree& tree = cluster->anchors[at.anchor];
     const Leaf* best = cluster->best_leaf(at.anchor);
     const int c = (best ? best : tree.leaves.front().get())->top_class();
-    tree.anchor = std::make_shared<const Anchor>(
-        Anchor{birth, background.object_class(c).name + "-" + std::to_string(++belief.names[c])});
+    Anchor named = *tree.anchor;
+    named.name = background.object_class(c).name + "-" + std::to_string(++belief.names[c]);
+    tree.anchor = std::make_shared<const Anchor>(std::move(named));
     belief.clusters[at.cluster] = std::move(cluster);
   }
 }

@@ -45,7 +45,7 @@ LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_det
   LeafVisibility shown;
   for (std::size_t c = 0; c < leaf.classes.size(); ++c) shown.p += leaf.classes[c] * p_detect[c];
   shown.v_model.assign(leaf.models.size(), 0.0);
-  if (view_.sees_nothing()) return shown;
+  if (view_.sees_nothing() || leaf.held) return shown;
   const auto& models = background_->object_class(leaf.model_class).models;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     if (!models[m].detectable || leaf.models[m].weight <= 0) continue;

@@ -21,12 +21,26 @@ Result<MapFrame> World::check(const Frame& frame) const {
   if (const auto last = newest(frame); last && frame.utime <= *last)
     return Error{ErrorCode::kConflict, "utime",
                  "is not after this sensor's last frame, " + std::to_string(*last)};
-  const Utime late = belief_->utime - frame.utime;
-  if (late > from_seconds(background_->knowledge.max_lateness))
-    return Error{ErrorCode::kConflict, "utime",
-                 "lies " + std::to_string(late) +
-                     " us behind the newest frame, more than world.max_lateness"};
+  if (Status in_time = check_lateness(frame.utime); !in_time) return in_time.error();
   return placed;
+}
+
+Result<MapEvent> World::check(const Event& event) const {
+  auto placed = place_in_map(event, *background_);
+  if (!placed) return placed;
+  if (Status in_time = check_lateness(event.utime); !in_time) return in_time.error();
+  const std::size_t place = place_in_order(order_of(event));
+  const Belief& met = place < recent_.size() ? *recent_[place].before : *belief_;
+  if (Status fits = check_against(*placed, met); !fits) return fits.error();
+  return placed;
+}
+
+Status World::check_lateness(Utime utime) const {
+  const Utime late = belief_->utime - utime;
+  if (late <= from_seconds(background_->knowledge.max_lateness)) return Done{};
+  return Error{
+      ErrorCode::kConflict, "utime",
+      "lies " + std::to_string(late) + " us behind the newest frame, more than world.max_lateness"};
 }
 
 std::optional<Utime> World::newest(const Frame& frame) const {
@@ -46,29 +60,54 @@ void World::fold_from(std::size_t first) {
   for (std::size_t i = first; i < recent_.size(); ++i) {
     recent_[i].before = before;
     auto after = std::make_shared<Belief>(*before);
-    fold(*after, *recent_[i].frame, visibility(*recent_[i].frame), *background_);
+    if (const auto* frame = std::get_if<std::shared_ptr<const MapFrame>>(&recent_[i].taken))
+      fold(*after, **frame, visibility(**frame), *background_);
+    else
+      fold(*after, *std::get<std::shared_ptr<const MapEvent>>(recent_[i].taken), *background_);
     before = std::move(after);
   }
   belief_ = std::move(before);
+}
+
+/// The utime by which an event is put in order.
+Utime World::order_of(const Event& event) const {
+  const Utime newest = belief_->utime;
+  if (event.utime - newest <= from_seconds(background_->knowledge.max_lateness)) return event.utime;
+  return recent_.empty() ? newest : std::max(newest, recent_.back().utime);
+}
+
+/// Where a step of that time stands: behind all of its time or earlier.
+std::size_t World::place_in_order(Utime utime) const {
+  auto place = recent_.end();
+  while (place != recent_.begin() && std::prev(place)->utime > utime) --place;
+  return static_cast<std::size_t>(place - recent_.begin());
+}
+
+void World::insert(Step step) {
+  const std::size_t index = place_in_order(step.utime);
+  step.before = index < recent_.size() ? recent_[index].before : belief_;
+  recent_.insert(recent_.begin() + static_cast<std::ptrdiff_t>(index), std::move(step));
+  fold_from(index);
+  ++taken_;
+  const Utime horizon = belief_->utime - from_seconds(background_->knowledge.max_lateness);
+  while (recent_.size() > 1 && recent_.front().utime < horizon) recent_.pop_front();
 }
 
 Status World::apply(const Frame& frame) {
   auto placed = check(frame);
   if (!placed) return placed.error();
   newest_[{frame.robot, frame.sensor}] = frame.utime;
-
-  auto place = recent_.end();
-  while (place != recent_.begin() && std::prev(place)->frame->utime > frame.utime) --place;
-  const auto index = static_cast<std::size_t>(place - recent_.begin());
-  if (index < recent_.size()) ++late_frames_;
-  auto before = index < recent_.size() ? recent_[index].before : belief_;
-  recent_.insert(place,
-                 Step{std::make_shared<const MapFrame>(std::move(*placed)), std::move(before)});
-  fold_from(index);
-
-  const Utime horizon = belief_->utime - from_seconds(background_->knowledge.max_lateness);
-  while (recent_.size() > 1 && recent_.front().frame->utime < horizon) recent_.pop_front();
+  if (frame.utime < belief_->utime) ++late_frames_;
+  insert({frame.utime, std::make_shared<const MapFrame>(*std::move(placed)), nullptr});
   return Done{};
+}
+
+Result<std::int64_t> World::apply(const Event& event) {
+  auto placed = check(event);
+  if (!placed) return placed.error();
+  placed->number = taken_ + 1;
+  insert({order_of(event), std::make_shared<const MapEvent>(*std::move(placed)), nullptr});
+  return taken_;
 }
 
 }  // namespace anchord

@@ -6,8 +6,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "anchoring/belief.h"
+#include "anchoring/map_event.h"
 #include "anchoring/map_frame.h"
 #include "anchoring/visibility.h"
 #include "core/frame.h"
@@ -15,9 +17,10 @@
 
 namespace anchord {
 
-/// The engine: folds frames into a belief. Given the same knowledge and the same frames in the
-/// same order it makes the same belief, to the bit. Reads no clock. Not thread-safe; a Belief that
-/// it has handed out may be read by any thread. Copying one is cheap: copies share what they hold.
+/// The engine: folds frames and events into a belief. Given the same knowledge and the same ones
+/// in the same order it makes the same belief, to the bit. Reads no clock. Not thread-safe; a
+/// Belief that it has handed out may be read by any thread. Copying one is cheap: copies share what
+/// they hold.
 class World {
  public:
   explicit World(Knowledge knowledge);
@@ -30,8 +33,17 @@ class World {
   /// that is too late. A refused frame changes nothing.
   Status apply(const Frame& frame);
 
+  /// Takes an event. It is put in its place among frames and events, as a late frame is, and takes
+  /// effect at the time of the newest frame before it: the belief's utime does not move. One that
+  /// is ahead of the newest frame by more than `world.max_lateness` comes from another clock, and
+  /// stands behind all that was accepted before it. Refuses what place_in_map() does, and
+  /// check_against() the belief in its place; kConflict: one that is too late. A refused event
+  /// changes nothing. Gives the event's number, which an undo names.
+  Result<std::int64_t> apply(const Event& event);
+
   /// The checks of apply() alone.
   Result<MapFrame> check(const Frame& frame) const;
+  Result<MapEvent> check(const Event& event) const;
 
   /// The belief after the frames so far.
   const std::shared_ptr<const Belief>& belief() const { return belief_; }
@@ -39,14 +51,19 @@ class World {
   /// utime of the newest frame of this frame's sensor, if there is one.
   std::optional<Utime> newest(const Frame& frame) const;
 
-  /// How many frames were put in place behind a newer one.
+  /// How many frames were put in place before a newer one.
   std::uint64_t late_frames() const { return late_frames_; }
 
  private:
   struct Step {
-    std::shared_ptr<const MapFrame> frame;
+    Utime utime;
+    std::variant<std::shared_ptr<const MapFrame>, std::shared_ptr<const MapEvent>> taken;
     std::shared_ptr<const Belief> before;
   };
+  Status check_lateness(Utime utime) const;
+  Utime order_of(const Event& event) const;
+  std::size_t place_in_order(Utime utime) const;
+  void insert(Step step);
   const Visibility& visibility(const MapFrame& frame);
   void fold_from(std::size_t first);
 
@@ -56,6 +73,7 @@ class World {
   std::map<std::pair<std::string, std::string>, Utime> newest_;  ///< by robot and sensor
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const Visibility>> visibility_;
   std::uint64_t late_frames_ = 0;
+  std::int64_t taken_ = 0;  ///< frames and events
 };
 
 }  // namespace anchord

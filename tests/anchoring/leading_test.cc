@@ -29,8 +29,9 @@ struct World {
 Cluster two_objects(const std::vector<World>& worlds) {
   Cluster cluster;
   for (std::uint64_t birth : {1, 2})
-    cluster.anchors.push_back(
-        {std::make_shared<const Anchor>(Anchor{birth, ""}), {at(0), at(5), at(9)}, kNone});
+    cluster.anchors.push_back({std::make_shared<const Anchor>(Anchor{birth, "", "", std::nullopt}),
+                               {at(0), at(5), at(9)},
+                               kNone});
   for (const World& w : worlds) {
     Hypothesis h{std::log(w.probability), {}};
     h.leaf.assign(w.leaf.begin(), w.leaf.end());
