@@ -40,26 +40,59 @@ Eigen::Vector2d Camera::project(const Eigen::Vector3d& p_map) const {
   return {c.sx * on_sensor.x() / c.dpx + c.cx, on_sensor.y() / c.dpy + c.cy};
 }
 
-std::optional<GroundPoint> Camera::to_ground(const Eigen::Vector2d& pixel) const {
+Camera::Ray Camera::ray(const Eigen::Vector2d& pixel) const {
   const CameraParameters& c = parameters_;
   const Eigen::DiagonalMatrix<double, 2> scale(c.dpx / c.sx, c.dpy);
   const Eigen::Vector2d distorted = scale * (pixel - Eigen::Vector2d(c.cx, c.cy));
   const double stretch = 1 + c.kappa1 * distorted.squaredNorm();
-  const Eigen::Matrix2d d_ideal =
+  Ray ray;
+  ray.direction << stretch * distorted / c.focal, 1;
+  ray.change.topRows<2>() =
       (stretch * Eigen::Matrix2d::Identity() + 2 * c.kappa1 * distorted * distorted.transpose()) *
-      scale;
-  Eigen::Vector3d ray_camera;
-  ray_camera << stretch * distorted, c.focal;
-  const Eigen::Vector3d ray = rotation_.transpose() * ray_camera;
-  const double distance = -centre_map_.z() / ray.z();  // in units of the ray
+      scale / c.focal;
+  ray.change.row(2).setZero();
+  return ray;
+}
+
+std::optional<GroundPoint> Camera::to_ground(const Eigen::Vector2d& pixel) const {
+  return to_plane(pixel, 0);
+}
+
+std::optional<GroundPoint> Camera::to_plane(const Eigen::Vector2d& pixel, double z) const {
+  const Ray from_camera = ray(pixel);
+  const Eigen::Vector3d direction = rotation_.transpose() * from_camera.direction;
+  const double distance = (z - centre_map_.z()) / direction.z();  // in units of the ray
   if (!(distance > 0) || !std::isfinite(distance)) return std::nullopt;
 
-  const Eigen::Matrix<double, 3, 2> d_ray = rotation_.transpose().leftCols<2>() * d_ideal;
+  const Eigen::Matrix<double, 3, 2> change = rotation_.transpose() * from_camera.change;
   GroundPoint ground;
-  ground.position = centre_map_.head<2>() + distance * ray.head<2>();
-  ground.jacobian =
-      distance * (d_ray.topRows<2>() - ray.head<2>() / ray.z() * d_ray.bottomRows<1>());
+  ground.position = centre_map_.head<2>() + distance * direction.head<2>();
+  ground.jacobian = distance * (change.topRows<2>() -
+                                direction.head<2>() / direction.z() * change.bottomRows<1>());
   return ground;
+}
+
+double Camera::depth(const Eigen::Vector3d& p_map) const {
+  return rotation_.row(2).dot(p_map) + parameters_.translation.z();
+}
+
+SpacePoint Camera::at_depth(const Eigen::Vector2d& pixel, double depth) const {
+  const Ray from_camera = ray(pixel);
+  SpacePoint point;
+  point.position =
+      rotation_.transpose() * (depth * from_camera.direction - parameters_.translation);
+  point.jacobian.leftCols<2>() = rotation_.transpose() * depth * from_camera.change;
+  point.jacobian.col(2) = rotation_.transpose() * from_camera.direction;
+  return point;
+}
+
+Camera Camera::part(int left, int top, int width, int height) const {
+  Camera result = *this;
+  result.parameters_.cx -= left;
+  result.parameters_.cy -= top;
+  result.parameters_.width = width;
+  result.parameters_.height = height;
+  return result;
 }
 
 }  // namespace anchord

@@ -26,6 +26,12 @@ struct GroundPoint {
   Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();  ///< m per pixel: d(x, y) / d(u, v)
 };
 
+/// A point in space that a pixel shows at some depth, and how it moves with them.
+struct SpacePoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, map frame
+  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();  ///< d(x, y, z) / d(u, v, depth)
+};
+
 /// Between the map and the picture of a calibrated camera; the ground is z = 0.
 class Camera {
  public:
@@ -42,7 +48,26 @@ class Camera {
   /// given from picture to ray, so nothing is iterated.
   std::optional<GroundPoint> to_ground(const Eigen::Vector2d& pixel) const;
 
+  /// The same on the plane at height z (m).
+  std::optional<GroundPoint> to_plane(const Eigen::Vector2d& pixel, double z) const;
+
+  /// Distance of a point of the map from the camera along its optical axis, m, as depth images
+  /// hold it; negative behind the camera.
+  double depth(const Eigen::Vector3d& p_map) const;
+
+  /// The point that a pixel shows at a depth (m).
+  SpacePoint at_depth(const Eigen::Vector2d& pixel, double depth) const;
+
+  /// The camera whose picture is a part of this one's: pixels count from the part's corner.
+  Camera part(int left, int top, int width, int height) const;
+
  private:
+  struct Ray {
+    Eigen::Vector3d direction;           ///< camera frame, z = 1
+    Eigen::Matrix<double, 3, 2> change;  ///< with the pixel (u, v)
+  };
+  Ray ray(const Eigen::Vector2d& pixel) const;
+
   CameraParameters parameters_;
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d centre_map_;

@@ -1,5 +1,6 @@
 #include "perception/camera_file.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "knowledge/configuration_file.h"
@@ -65,7 +66,7 @@ std::vector<std::array<double, 2>> pixels(const JsonValue& in) {
   return result;
 }
 
-void read_background(const JsonValue& in, Background::Settings& settings) {
+void read_background(const JsonValue& in, EmptyScene::Settings& settings) {
   in.object_of({"darkest", "brightest", "threshold", "width", "rate"});
   in.read("darkest", settings.darkest, {0, 1, true});
   in.read("brightest", settings.brightest, {1, 10});
@@ -134,13 +135,53 @@ void read_colors(const JsonValue& in, std::vector<NamedColor>& colors) {
   if (colors.empty()) in.mistake("must name at least one color");
 }
 
+void read_appearance(const JsonValue& in, const std::vector<NamedColor>& named,
+                     VerifierSettings::Appearance& appearance) {
+  in.object_of({"color", "extent"});
+  if (const auto colors = in.find("color")) {
+    for (const JsonValue& each : colors->elements(kMostColors)) {
+      const auto name = each.name();
+      if (!name) continue;
+      const bool known = std::any_of(named.begin(), named.end(),
+                                     [&](const NamedColor& color) { return color.name == *name; });
+      if (!known) each.mistake("is not one of the colors");
+      appearance.colors.push_back(*name);
+    }
+  }
+  if (const auto extent = in.find("extent")) {
+    if (const auto numbers = extent->numbers(3, kNotNegative)) {
+      std::copy(numbers->begin(), numbers->end(), appearance.extent.begin());
+    }
+  }
+}
+
+void read_verification(const JsonValue& in, DetectorSettings& settings) {
+  VerifierSettings& v = settings.verification;
+  in.object_of({"appearances", "least_visible", "least_body", "least_score", "least_confidence",
+                "size_deviation", "pixel_noise", "edge_noise", "depth_noise", "looks"});
+  if (const auto appearances = in.find("appearances")) {
+    for (const auto& [name, each] : appearances->members()) {
+      read_appearance(each, settings.clothes.colors, v.appearances[name]);
+    }
+  }
+  in.read("least_visible", v.least_visible, kProbability);
+  in.read("least_body", v.least_body, kProbability);
+  in.read("least_score", v.least_score, kProbability);
+  in.read("least_confidence", v.least_confidence, kProbability);
+  in.read("size_deviation", v.size_deviation, {0, 1});
+  in.read("pixel_noise", v.pixel_noise, {0, 100, true});
+  in.read("edge_noise", v.edge_noise, {0, 1});
+  in.read("depth_noise", v.depth_noise, {0, 1});
+  in.read("looks", v.looks, 1, 1000);
+}
+
 std::optional<DetectorSettings> read(const std::optional<nlohmann::json>& document,
                                      ConfigurationMistakes& mistakes) {
   if (!document) return std::nullopt;
   const JsonValue root(*document, "", mistakes);
   DetectorSettings settings;
   if (!root.object_of({"sensor", "camera", "view", "occluders", "background", "people", "noise",
-                       "score", "colors", "color_report"})) {
+                       "score", "colors", "color_report", "verification"})) {
     return std::nullopt;
   }
   root.read("sensor", settings.sensor);
@@ -163,6 +204,9 @@ std::optional<DetectorSettings> read(const std::optional<nlohmann::json>& docume
     report->read("doubt", settings.clothes.doubt, {0, 1, true});
     report->read("sharpness", settings.clothes.sharpness, {0, 1});
     report->read("least_pixels", settings.clothes.least_pixels, kNotNegative);
+  }
+  if (const auto verification = root.find("verification")) {
+    read_verification(*verification, settings);
   }
   if (!mistakes.empty()) return std::nullopt;
   return settings;

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "knowledge/configuration.h"
-#include "perception/person_detector.h"
+#include "perception/detector_settings.h"
 
 namespace anchord {
 
@@ -23,7 +23,10 @@ namespace anchord {
 ///      "noise": {"u": {"base", "covered", "weak"}, "v": {...}, "foot_offset": [u, v]},
 ///      "score": {"bias", "gain", "filled", "observed", "alone", "likeness"},
 ///      "colors": [{"name": "red", "hue": [330, 15], "saturation": [0.4, 1], "value": [0.2, 1]}],
-///      "color_report": {"doubt", "sharpness", "least_pixels"}}
+///      "color_report": {"doubt", "sharpness", "least_pixels"},
+///      "verification": {"appearances": {"cat": {"color": ["black"], "extent": [l, w, h]}},
+///                       "least_visible", "least_body", "least_score", "least_confidence",
+///                       "size_deviation", "pixel_noise", "edge_noise", "depth_noise", "looks"}}
 ///
 /// Nothing, and at least one mistake, where the file is wrong.
 std::optional<DetectorSettings> read_camera_file(const std::filesystem::path& file,

@@ -18,8 +18,7 @@ constexpr std::array<Block, 3> kBlocks = {
 
 constexpr double kRoughness = 0.8;  ///< blocks are rougher than silhouettes: they pass with less
 constexpr double kHeightWeight =
-    0.01;                       ///< of the prior: pixels of one person are far from independent
-constexpr int kRowsBelow = 24;  ///< feet may be a little below the picture
+    0.01;  ///< of the prior: pixels of one person are far from independent
 constexpr int kSweeps = 2;
 
 /// How much of a person is seen, given the others.
@@ -56,8 +55,10 @@ PersonSearch::PersonSearch(const Camera& camera, const cv::Mat1b& observable,
                            const Settings& settings)
     : camera_(camera), observable_(observable), settings_(settings) {
   const cv::Rect picture(0, 0, camera.width(), camera.height());
-  for (int v = settings.least_foot_row; v < camera.height() + kRowsBelow; v += settings.step) {
-    for (int u = 0; u < camera.width(); u += settings.step) {
+  for (int v = settings.least_foot_row; v < camera.height() + settings.rows_below;
+       v += settings.step) {
+    for (int u = -settings.columns_beside; u < camera.width() + settings.columns_beside;
+         u += settings.step) {
       const std::optional<Silhouette> person = stand(camera, {u, v}, settings.height_m);
       if (!person) continue;
       Candidate candidate{*person, {}, 0};

@@ -32,6 +32,8 @@ class PersonSearch {
     double false_foreground = 0.03;    ///< probability of foreground where nobody is
     double least_gain = 0.2;           ///< of a person that is reported
     int least_foot_row = 0;            ///< no feet above this row
+    int rows_below = 24;               ///< feet may be so far below the picture
+    int columns_beside = 0;            ///< or beside it
     int step = 4;                      ///< of the grid of first guesses, pixels
     int most = 40;                     ///< people in one frame
   };

@@ -68,6 +68,39 @@ TEST(CameraFile, NamesEveryMistake) {
   }
 }
 
+/// A camera's file with what it needs, and a verification section.
+std::string with_verification(const std::string& section) {
+  return R"({"camera": {"image": [64, 48], "focal": 1, "kappa1": 0, "center": [0, 0], "sx": 1,
+                        "pixel": [1, 1], "rotation": [0, 0, 0], "translation": [0, 0, 1]},
+             "view": [[0, 0], [1, 0], [0, 1]], "colors": [{"name": "red"}], "verification": )" +
+         section + "}";
+}
+
+TEST(CameraFile, TellsWhatIsVerifiedAndHow) {
+  ConfigurationMistakes mistakes;
+  const auto settings = parse_camera_file(with_verification(R"({"looks": 5, "least_visible": 0.9,
+                            "appearances": {"cat": {"color": ["red"], "extent": [1, 2, 3]}}})"),
+                                          "", mistakes);
+  ASSERT_TRUE(settings) << mistakes[0].text();
+  EXPECT_EQ(settings->verification.looks, 5);
+  EXPECT_EQ(settings->verification.least_visible, 0.9);
+  const auto& cat = settings->verification.appearances.at("cat");
+  EXPECT_EQ(cat.colors, std::vector<std::string>{"red"});
+  EXPECT_EQ(cat.extent, (std::array<double, 3>{1, 2, 3}));
+}
+
+TEST(CameraFile, NamesMistakesInVerification) {
+  const auto paths = mistakes_of(with_verification(
+      R"({"looks": 0, "luck": 1, "appearances": {"cat": {"color": ["rad"], "extent": [1]}}})"));
+  for (const char* start :
+       {"verification.looks", "verification.luck", "verification.appearances.cat.color[0]",
+        "verification.appearances.cat.extent"}) {
+    EXPECT_TRUE(std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
+      return path.starts_with(start);
+    })) << start;
+  }
+}
+
 TEST(CameraFile, RefusesWhatIsNoJson) {
   EXPECT_FALSE(mistakes_of("{").empty());
   EXPECT_FALSE(mistakes_of("[]").empty());

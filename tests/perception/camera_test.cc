@@ -63,6 +63,36 @@ RC_GTEST_PROP(Camera, JacobianIsTheDerivative, ()) {
   }
 }
 
+RC_GTEST_PROP(Camera, DepthAndPlaneAreWhatProjectUndoes, ()) {
+  const Camera camera = plaza_camera();
+  const Eigen::Vector3d point(*rc::gen::inRange(-140, -40) * 0.1, *rc::gen::inRange(-100, 0) * 0.1,
+                              *rc::gen::inRange(0, 30) * 0.1);
+  const Eigen::Vector2d pixel = camera.project(point);
+  // Newton's method in project() goes to rounding; coordinates are tens of metres.
+  RC_ASSERT((camera.at_depth(pixel, camera.depth(point)).position - point).norm() < 1e-9);
+  RC_ASSERT((camera.to_plane(pixel, point.z())->position - point.head<2>()).norm() < 1e-8);
+  RC_ASSERT(
+      (camera.part(100, 50, 60, 70).project(point) - (pixel - Eigen::Vector2d(100, 50))).norm() <
+      1e-9);
+}
+
+RC_GTEST_PROP(Camera, JacobianInSpaceIsTheDerivative, ()) {
+  const Camera camera = plaza_camera();
+  const Eigen::Vector3d at(*rc::gen::inRange(0, 768), *rc::gen::inRange(0, 576),
+                           *rc::gen::inRange(5, 40));
+  const SpacePoint point = camera.at_depth(at.head<2>(), at.z());
+  const double h = 1e-3;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d up = at + h * Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector3d down = at - h * Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector3d slope = (camera.at_depth(up.head<2>(), up.z()).position -
+                                   camera.at_depth(down.head<2>(), down.z()).position) /
+                                  (2 * h);
+    // As above; and rounding of tens of metres over 2 h.
+    RC_ASSERT((slope - point.jacobian.col(axis)).norm() < 1e-8);
+  }
+}
+
 TEST(Camera, SeesNoGroundAboveTheHorizon) {
   // The camera looks down by some 16 degrees: its horizon lies above the picture.
   EXPECT_FALSE(plaza_camera().to_ground({384, -400}).has_value());

@@ -10,7 +10,7 @@ namespace anchord {
 /// the background is scaled by the best factor in an interval before it is compared (after
 /// T. Horprasert, D. Harwood, L. Davis, "A statistical approach for real-time robust background
 /// subtraction and shadow detection", ICCV 1999 Frame-Rate Workshop).
-class Background {
+class EmptyScene {
  public:
   struct Settings {
     double darkest = 0.75;    ///< least factor by which a shadow darkens
@@ -22,13 +22,21 @@ class Background {
 
   /// The median of some frames, all 8-bit BGR of one size, at least one. With people who stand
   /// still for less than half of them it is free of people.
-  Background(const std::vector<cv::Mat>& frames, const Settings& settings);
+  EmptyScene(const std::vector<cv::Mat>& frames, const Settings& settings);
+  /// A copy shares nothing.
+  EmptyScene(const EmptyScene& other)
+      : settings_(other.settings_), mean_(cv::Mat3f(other.mean_.clone())) {}
+  EmptyScene(EmptyScene&&) = default;
 
   /// The probability that each pixel shows something new: 32-bit float in [0, 1].
   cv::Mat1f foreground(const cv::Mat& frame) const;
+  /// The same of the part of a frame that lies at `where`; reads no pixel outside it.
+  cv::Mat1f foreground(const cv::Mat& part, const cv::Rect& where) const;
 
   /// Takes up slow changes where `occupied` (8-bit) is zero; people who stand stay people.
   void update(const cv::Mat& frame, const cv::Mat1b& occupied);
+  /// The same of the part at `where`; elsewhere the scene stays as it was last seen.
+  void update(const cv::Mat& part, const cv::Rect& where, const cv::Mat1b& occupied);
 
   const cv::Mat3f& picture() const { return mean_; }
 

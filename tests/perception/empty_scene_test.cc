@@ -1,4 +1,4 @@
-#include "perception/background.h"
+#include "perception/empty_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -19,31 +19,31 @@ cv::Mat with_box(const cv::Rect& box, const cv::Scalar& color) {
 const cv::Rect kBox(10, 10, 12, 20);
 const cv::Point kInside(16, 20), kOutside(35, 5);
 
-TEST(Background, ForgetsWhoPassesByWhileItLearns) {
+TEST(EmptyScene, ForgetsWhoPassesByWhileItLearns) {
   const cv::Mat passing = with_box(kBox, cv::Scalar(10, 10, 10));
-  const Background background({passing, pavement(), pavement(), passing, pavement()}, {});
-  EXPECT_EQ(background.foreground(pavement())(kInside), 0.0F);
+  const EmptyScene scene({passing, pavement(), pavement(), passing, pavement()}, {});
+  EXPECT_EQ(scene.foreground(pavement())(kInside), 0.0F);
 }
 
-TEST(Background, SeesWhatIsNew) {
-  const Background background({pavement()}, {});
-  const cv::Mat1f foreground = background.foreground(with_box(kBox, cv::Scalar(20, 20, 200)));
+TEST(EmptyScene, SeesWhatIsNew) {
+  const EmptyScene scene({pavement()}, {});
+  const cv::Mat1f foreground = scene.foreground(with_box(kBox, cv::Scalar(20, 20, 200)));
   EXPECT_EQ(foreground(kInside), 1.0F);
   EXPECT_EQ(foreground(kOutside), 0.0F);
 }
 
-TEST(Background, DoesNotMindShadows) {
-  const Background background({pavement()}, {});
-  EXPECT_EQ(background.foreground(with_box(kBox, kPavement * 0.8))(kInside), 0.0F);
+TEST(EmptyScene, DoesNotMindShadows) {
+  const EmptyScene scene({pavement()}, {});
+  EXPECT_EQ(scene.foreground(with_box(kBox, kPavement * 0.8))(kInside), 0.0F);
   // Nobody's shadow is as dark as black cloth.
-  EXPECT_EQ(background.foreground(with_box(kBox, kPavement * 0.2))(kInside), 1.0F);
+  EXPECT_EQ(scene.foreground(with_box(kBox, kPavement * 0.2))(kInside), 1.0F);
 }
 
-TEST(Background, TakesUpChangesButNotPeople) {
+TEST(EmptyScene, TakesUpChangesButNotPeople) {
   const cv::Mat changed = with_box(kBox, cv::Scalar(60, 160, 90));
   cv::Mat1b occupied = cv::Mat1b::zeros(kEdge, kEdge);
-  Background follows({pavement()}, {});
-  Background keeps({pavement()}, {});
+  EmptyScene follows({pavement()}, {});
+  EmptyScene keeps({pavement()}, {});
   for (int i = 0; i < 500; ++i) {  // 5 times the time constant of the default rate, 0.01
     follows.update(changed, occupied);
     keeps.update(changed, cv::Mat1b(kEdge, kEdge, uchar{255}));

@@ -1,4 +1,4 @@
-#include "perception/background.h"
+#include "perception/empty_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,8 @@ namespace {
 /// Takes the sensor's noise and the codec's edges off before pixels are compared.
 cv::Mat3f smoothed(const cv::Mat& frame) {
   cv::Mat blurred;
-  cv::GaussianBlur(frame, blurred, cv::Size(3, 3), 0);
+  // Isolated: a part of a picture is smoothed without what lies around it.
+  cv::GaussianBlur(frame, blurred, cv::Size(3, 3), 0, 0, cv::BORDER_DEFAULT | cv::BORDER_ISOLATED);
   cv::Mat3f result;
   blurred.convertTo(result, CV_32F);
   return result;
@@ -19,7 +20,7 @@ cv::Mat3f smoothed(const cv::Mat& frame) {
 
 }  // namespace
 
-Background::Background(const std::vector<cv::Mat>& frames, const Settings& settings)
+EmptyScene::EmptyScene(const std::vector<cv::Mat>& frames, const Settings& settings)
     : settings_(settings) {
   CV_Assert(!frames.empty());
   cv::Mat3b median(frames[0].size());
@@ -39,8 +40,14 @@ Background::Background(const std::vector<cv::Mat>& frames, const Settings& setti
   mean_ = smoothed(median);
 }
 
-cv::Mat1f Background::foreground(const cv::Mat& frame) const {
-  const cv::Mat3f now = smoothed(frame);
+cv::Mat1f EmptyScene::foreground(const cv::Mat& frame) const {
+  return foreground(frame, cv::Rect(cv::Point(), mean_.size()));
+}
+
+cv::Mat1f EmptyScene::foreground(const cv::Mat& part, const cv::Rect& where) const {
+  CV_Assert(part.size() == where.size());
+  const cv::Mat3f now = smoothed(part);
+  const cv::Mat3f mean = mean_(where);
   cv::Mat1f result(now.size());
   const auto darkest = static_cast<float>(settings_.darkest);
   const auto brightest = static_cast<float>(settings_.brightest);
@@ -49,7 +56,7 @@ cv::Mat1f Background::foreground(const cv::Mat& frame) const {
   for (int y = 0; y < now.rows; ++y) {
     for (int x = 0; x < now.cols; ++x) {
       const cv::Vec3f& a = now(y, x);
-      const cv::Vec3f& b = mean_(y, x);
+      const cv::Vec3f& b = mean(y, x);
       const float light = std::clamp((a.dot(b) + 1) / (b.dot(b) + 1), darkest, brightest);
       const cv::Vec3f d = a - light * b;
       const float step = (std::sqrt(d.dot(d)) - threshold) / half_width;
@@ -59,8 +66,13 @@ cv::Mat1f Background::foreground(const cv::Mat& frame) const {
   return result;
 }
 
-void Background::update(const cv::Mat& frame, const cv::Mat1b& occupied) {
-  cv::accumulateWeighted(smoothed(frame), mean_, settings_.rate, occupied == 0);
+void EmptyScene::update(const cv::Mat& frame, const cv::Mat1b& occupied) {
+  update(frame, cv::Rect(cv::Point(), mean_.size()), occupied);
+}
+
+void EmptyScene::update(const cv::Mat& part, const cv::Rect& where, const cv::Mat1b& occupied) {
+  cv::Mat3f mean = mean_(where);
+  cv::accumulateWeighted(smoothed(part), mean, settings_.rate, occupied == 0);
 }
 
 }  // namespace anchord
