@@ -70,7 +70,7 @@ Result<Json> answer_where(const HttpTarget& target, const Snapshot& snapshot) {
   };
   std::vector<Candidate> candidates;
   for (auto& object : read_objects(*snapshot.belief, now, 0, background)) {
-    if (!asked->object.empty() && object.anchor->id() != asked->object) continue;
+    if (!asked->object.empty() && !object.anchor->is_called(asked->object)) continue;
     double fit = match(object, asked->description, background);
     if (asked->place >= 0) fit *= object.in_place(asked->place, background);
     if (asked->object.empty() && object.p * fit < asked->min_p.value_or(kLeastShown)) continue;

@@ -78,7 +78,7 @@ Json attributes_json(const ObjectBelief& object, const Background& background) {
 Json models_json(const Leaf& leaf, const Background& background) {
   Json out = Json::object();
   const auto& models = background.object_class(leaf.model_class).models;
-  for (std::size_t m = 0; m < models.size(); ++m) {
+  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     const char* kind = to_string(models[m].kind);
     out[kind] = out.value(kind, 0.0) + leaf.models[m].weight;
   }
@@ -93,6 +93,11 @@ void add_shape(Json& to, const Leaf& leaf, const Background& background) {
   if (leaf.yaw) to["yaw"] = *leaf.yaw;
   const Eigen::Vector3d& extent = background.object_class(leaf.top_class()).extent;
   if (!extent.isZero()) to["extent"] = position_json(extent, 3);
+}
+
+void add_said(Json& to, const Anchor& anchor) {
+  if (!anchor.alias.empty()) to["alias"] = anchor.alias;
+  if (anchor.holder) to["held_by"] = *anchor.holder;
 }
 
 }  // namespace anchord

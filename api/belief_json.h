@@ -29,4 +29,7 @@ Json place_json(int place, const Background& background);
 /// What a leaf carries through of its object's shape: `yaw` and `extent`, where known.
 void add_shape(Json& to, const Leaf& leaf, const Background& background);
 
+/// What was said and done of an object: `alias` and `held_by`, where there are such.
+void add_said(Json& to, const Anchor& anchor);
+
 }  // namespace anchord

@@ -1,5 +1,6 @@
 #include "api/lcm_log.h"
 
+#include <algorithm>
 #include <array>
 #include <istream>
 #include <ostream>
@@ -7,6 +8,7 @@
 
 #include "lcmtypes/channels.h"
 #include "lcmtypes/codec.h"
+#include "lcmtypes/event_codec.h"
 #include "lcmtypes/names.h"
 
 namespace anchord {
@@ -39,12 +41,13 @@ Error LcmLogReader::damage(const char* message) {
   return *damage_;
 }
 
-Result<std::optional<std::vector<std::uint8_t>>> LcmLogReader::next(const std::string& channel) {
+Result<std::optional<LcmLogReader::Message>> LcmLogReader::next_of(
+    std::initializer_list<std::string_view> channels) {
   while (true) {
     if (damage_) return *damage_;
     Header header;
     stream_.read(header.data(), header.size());
-    if (stream_.gcount() == 0) return std::optional<std::vector<std::uint8_t>>();
+    if (stream_.gcount() == 0) return std::optional<Message>();
     if (!stream_) return damage("the log ends inside the header of an event");
     if (read_u32(header, 0) != kSync) return damage("no event of an LCM log starts here");
     const std::uint32_t channel_bytes = read_u32(header, 20), data_bytes = read_u32(header, 24);
@@ -54,7 +57,7 @@ Result<std::optional<std::vector<std::uint8_t>>> LcmLogReader::next(const std::s
     if (data_bytes > kMaxDataBytes) return damage("the data's length must not be negative");
     std::string found(channel_bytes, '\0');
     if (!stream_.read(found.data(), channel_bytes)) return damage("the log ends inside an event");
-    const bool wanted = found == channel;
+    const bool wanted = std::find(channels.begin(), channels.end(), found) != channels.end();
     const bool too_large = data_bytes > kMaxMessageBytes;
     std::vector<std::uint8_t> data;
     if (wanted && !too_large) {
@@ -66,8 +69,21 @@ Result<std::optional<std::vector<std::uint8_t>>> LcmLogReader::next(const std::s
     if (stream_.gcount() != data_bytes) return damage("the log ends inside an event");
     const std::int64_t index = events_++;
     if (wanted && too_large) return invalid(event_field(index), "the message has more than 8 MiB");
-    if (wanted) return std::optional(std::move(data));
+    if (wanted) return std::optional(Message{std::move(found), std::move(data)});
   }
+}
+
+Result<std::optional<std::vector<std::uint8_t>>> LcmLogReader::next(const std::string& channel) {
+  auto message = next_of({channel});
+  if (!message) return message.error();
+  if (!*message) return std::optional<std::vector<std::uint8_t>>();
+  return std::optional(std::move((**message).data));
+}
+
+Error LcmLogReader::at_event(Error error) const {
+  const std::string event = event_field(events_ - 1);
+  error.field = error.field.empty() ? event : event + "." + error.field;
+  return error;
 }
 
 Result<std::optional<FrameMessage>> LcmLogReader::next_frame() {
@@ -75,11 +91,23 @@ Result<std::optional<FrameMessage>> LcmLogReader::next_frame() {
   if (!data) return data.error();
   if (!*data) return std::optional<FrameMessage>();
   Result<FrameMessage> message = decode_frame(**data);
-  if (message) return std::optional(std::move(*message));
-  Error error = message.error();
-  const std::string event = event_field(events_ - 1);
-  error.field = error.field.empty() ? event : event + "." + error.field;
-  return error;
+  if (!message) return at_event(message.error());
+  return std::optional(std::move(*message));
+}
+
+Result<std::optional<std::variant<Frame, Event>>> LcmLogReader::next_input() {
+  using Input = std::variant<Frame, Event>;
+  auto message = next_of({kDetectionsChannel, kEventChannel});
+  if (!message) return message.error();
+  if (!*message) return std::optional<Input>();
+  if ((**message).channel == kEventChannel) {
+    auto event = decode_event((**message).data);
+    if (!event) return at_event(event.error());
+    return std::optional<Input>(std::move(event->event));
+  }
+  auto frame = decode_frame((**message).data);
+  if (!frame) return at_event(frame.error());
+  return std::optional<Input>(std::move(frame->frame));
 }
 
 Status LcmLogWriter::write(const std::string& channel, Utime utime,
@@ -99,6 +127,10 @@ Status LcmLogWriter::write(const std::string& channel, Utime utime,
 
 Status LcmLogWriter::write_frame(const Frame& frame) {
   return write(kDetectionsChannel, frame.utime, encode(frame, ++frames_));
+}
+
+Status LcmLogWriter::write_event(const Event& event) {
+  return write(kEventChannel, event.utime, encode(event, ++done_));
 }
 
 }  // namespace anchord

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <iosfwd>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
+#include "core/event.h"
 #include "core/frame.h"
 #include "core/result.h"
 #include "core/time.h"
@@ -32,10 +36,21 @@ class LcmLogReader {
   /// can go on after that. The field starts with the event's index: `event[12].sensor`.
   Result<std::optional<FrameMessage>> next_frame();
 
+  /// The next frame on kDetectionsChannel or event on kEventChannel, in the log's order. Refused
+  /// besides: what decode_frame() and decode_event() refuse, as next_frame() does.
+  Result<std::optional<std::variant<Frame, Event>>> next_input();
+
   /// How many events have been read, those of other channels included.
   std::int64_t events() const { return events_; }
 
  private:
+  struct Message {
+    std::string channel;
+    std::vector<std::uint8_t> data;
+  };
+  Result<std::optional<Message>> next_of(std::initializer_list<std::string_view> channels);
+  /// A refusal of what the last event holds.
+  Error at_event(Error error) const;
   /// The refusal that every later call repeats.
   Error damage(const char* message);
 
@@ -56,10 +71,14 @@ class LcmLogWriter {
   /// Appends a frame on kDetectionsChannel, at its own time, numbered from 1.
   Status write_frame(const Frame& frame);
 
+  /// Appends an event on kEventChannel, likewise.
+  Status write_event(const Event& event);
+
  private:
   std::ostream& stream_;
   std::int64_t events_ = 0;
   std::int64_t frames_ = 0;
+  std::int64_t done_ = 0;  ///< events on kEventChannel
 };
 
 }  // namespace anchord

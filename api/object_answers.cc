@@ -20,6 +20,7 @@ Json object_json(const ObjectBelief& object, const Background& background) {
   out["place"] = place_json(object.place(background), background);
   out["in_best"] = object.in_best;
   add_shape(out, *leaf, background);
+  add_said(out, *object.anchor);
   return out;
 }
 
@@ -27,14 +28,15 @@ Json object_json(const ObjectBelief& object, const Background& background) {
 Json model_list(const Leaf& leaf, const Background& background) {
   Json out = Json::array();
   const auto& models = background.object_class(leaf.model_class).models;
-  for (std::size_t m = 0; m < models.size(); ++m) {
+  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     Json model{{"kind", to_string(models[m].kind)}, {"weight", leaf.models[m].weight}};
     if (const auto* kinematic = std::get_if<Kinematic>(&leaf.models[m].density)) {
       model["detectable"] = models[m].detectable;
       model["position"] = position_json(kinematic->position, background.dims);
       model["covariance"] = covariance_json(kinematic->pp, background.dims);
     } else {
-      model["place"] = place_json(models[m].place, background);
+      const auto& somewhere = std::get<Somewhere>(leaf.models[m].density);
+      model["place"] = place_json(background.place_of(*somewhere.footprint()), background);
     }
     out.push_back(std::move(model));
   }
@@ -89,7 +91,7 @@ Result<Json> answer_object(const std::string& id, const HttpTarget& target,
   const Background& background = *snapshot.background;
   if (auto none = read_parameters(target, "", background); !none) return none.error();
   for (const auto& object : read_objects(*snapshot.belief, snapshot.belief->utime, 0, background)) {
-    if (object.anchor->id() != id) continue;
+    if (!object.anchor->is_called(id)) continue;
     Json out{{"utime", snapshot.belief->utime}};
     out.update(object_json(object, background));
     out["models"] = model_list(object.shown(), background);

@@ -21,6 +21,7 @@ Json object_json(const ObjectBelief& object, bool all, const Background& backgro
            {"models", models_json(leaf, background)},
            {"last_seen", leaf.last_seen}};
   add_shape(out, leaf, background);
+  add_said(out, *object.anchor);
   if (all) {
     out["in_best"] = object.in_best;
     const Gaussian marginal = object.moments(background);

@@ -5,6 +5,7 @@
 
 #include "api/frame_json.h"
 #include "daemon/openapi.h"
+#include "daemon/verification_routes.h"
 
 namespace anchord {
 namespace {
@@ -34,18 +35,12 @@ Result<std::vector<Frame>> read_frames(const std::string& body) {
   return frames;
 }
 
-void receive_frames(const HttpRequest& request, const HttpReply& reply, Journal& journal,
-                    Statistics& statistics, const RefusedBody& refused) {
-  if (!is_json(request.content_type)) {
-    ++statistics.refused;
-    const std::string message = "send the frames with Content-Type: application/json";
-    refused(invalid("Content-Type", message));
-    return reply(http_error(415, "unsupported_media_type", message, "Content-Type"));
-  }
+void receive_frames(const HttpRequest& request, const HttpReply& reply,
+                    const HttpBackend& backend) {
   auto frames = read_frames(request.body);
   if (!frames) {
-    ++statistics.refused;
-    refused(frames.error());
+    ++backend.statistics.refused;
+    backend.refused(frames.error());
     return reply(http_error(frames.error()));
   }
   Submission submission{std::move(*frames), kHttpOrigin, is_array(request.body), {}};
@@ -57,8 +52,8 @@ void receive_frames(const HttpRequest& request, const HttpReply& reply, Journal&
   };
   const std::size_t count = submission.frames.size();
   if (count == 0) return submission.done(Receipt{});
-  if (!journal.submit(std::move(submission))) {
-    statistics.overrun += count;
+  if (!backend.journal.submit(std::move(submission))) {
+    backend.statistics.overrun += count;
     reply(http_error(503, "overloaded", "too many frames wait to be applied; send this again"));
   }
 }
@@ -74,31 +69,67 @@ HttpResponse not_ready() {
                     "the daemon is restoring its belief from the log, or ending; try again");
 }
 
-}  // namespace
-
-HttpResponse answer_get(const HttpTarget& target, const Journal& journal,
-                        const std::atomic<bool>& ready, const SelfDescription& self) {
-  if (target.path == "/v1/status") return self.status();
-  if (target.path == "/metrics") return self.metrics();
-  if (target.path == "/v1/openapi.json") return {200, "application/json", kOpenApi, {}};
-  if (!ready) return not_ready();
-  return answer(target, journal.snapshot());
+/// Whether a body may be read as JSON; answers if not.
+bool refuse_unless_json(const HttpRequest& request, const HttpReply& reply, const char* what,
+                        const HttpBackend& backend) {
+  if (is_json(request.content_type)) return false;
+  ++backend.statistics.refused;
+  const std::string message = std::string("send ") + what + " with Content-Type: application/json";
+  backend.refused(invalid("Content-Type", message));
+  reply(http_error(415, "unsupported_media_type", message, "Content-Type"));
+  return true;
 }
 
-HttpHandler http_routes(Journal& journal, const std::atomic<bool>& ready, Statistics& statistics,
-                        SelfDescription self, RefusedBody refused) {
-  return [&journal, &ready, &statistics, self = std::move(self), refused = std::move(refused)](
-             const HttpRequest& request, const HttpReply& reply) {
-    if (request.target.path == "/v1/detections") {
-      if (request.method != "POST")
-        return reply(method_not_allowed("frames are sent with POST", "POST, OPTIONS"));
-      if (!ready) return reply(not_ready());
-      return receive_frames(request, reply, journal, statistics, refused);
-    }
+bool is_verification(const std::string& path) {
+  return path == "/v1/verifications" || path.starts_with("/v1/verifications/");
+}
+
+/// What changes something: POST, and DELETE of a task. False: that is none of it.
+bool change(const HttpRequest& request, const HttpReply& reply, const HttpBackend& backend) {
+  const std::string& path = request.target.path;
+  const bool frames = path == "/v1/detections", event = path == "/v1/events";
+  const bool verification = is_verification(path) && request.method != "GET";
+  if (!frames && !event && !verification) return false;
+  if (frames && request.method != "POST") {
+    reply(method_not_allowed("frames are sent with POST", "POST, OPTIONS"));
+  } else if (event && request.method != "POST") {
+    reply(method_not_allowed("events are sent with POST", "POST, OPTIONS"));
+  } else if (verification && request.method != "POST" && request.method != "DELETE") {
+    reply(method_not_allowed("triggers and results are sent with POST, tasks cancelled with DELETE",
+                             "GET, HEAD, POST, DELETE, OPTIONS"));
+  } else if (!backend.ready) {
+    reply(not_ready());
+  } else if (frames) {
+    if (!refuse_unless_json(request, reply, "the frames", backend))
+      receive_frames(request, reply, backend);
+  } else if (request.method == "DELETE" ||
+             !refuse_unless_json(request, reply, event ? "the event" : "what is asked", backend)) {
+    if (event)
+      receive_event(request, reply, backend.journal, backend.robots);
+    else
+      receive_verification(request, reply, backend.verifications);
+  }
+  return true;
+}
+
+}  // namespace
+
+HttpResponse answer_get(const HttpTarget& target, const HttpBackend& backend) {
+  if (target.path == "/v1/status") return backend.self.status();
+  if (target.path == "/metrics") return backend.self.metrics();
+  if (target.path == "/v1/openapi.json") return {200, "application/json", kOpenApi, {}};
+  if (!backend.ready) return not_ready();
+  if (is_verification(target.path)) return verification_answer(target, backend.verifications);
+  return answer(target, backend.journal.snapshot());
+}
+
+HttpHandler http_routes(HttpBackend backend) {
+  return [backend = std::move(backend)](const HttpRequest& request, const HttpReply& reply) {
+    if (change(request, reply, backend)) return;
     if (request.method != "GET")
       return reply(method_not_allowed("questions are asked with GET", "GET, HEAD, OPTIONS"));
-    ++statistics.queries;
-    reply(answer_get(request.target, journal, ready, self));
+    ++backend.statistics.queries;
+    reply(answer_get(request.target, backend));
   };
 }
 

@@ -5,6 +5,9 @@
 
 #include "api/http_server.h"
 #include "daemon/journal.h"
+#include "daemon/robots.h"
+#include "daemon/statistics.h"
+#include "daemon/verifications.h"
 
 namespace anchord {
 
@@ -19,13 +22,22 @@ using RefusedBody = std::function<void(const Error&)>;
 /// Where frames that come over HTTP are said to come from.
 inline constexpr char kHttpOrigin[] = "HTTP";
 
-/// Routes requests: POST /v1/detections to the journal, questions to a snapshot, status, metrics
-/// and the API's description. Unless `ready` questions and frames get 503.
-HttpHandler http_routes(Journal& journal, const std::atomic<bool>& ready, Statistics& statistics,
-                        SelfDescription self, RefusedBody refused);
+/// What requests are handed to.
+struct HttpBackend {
+  Journal& journal;
+  Verifications& verifications;
+  const Robots& robots;
+  const std::atomic<bool>& ready;  ///< until then what needs the belief gets 503
+  Statistics& statistics;
+  SelfDescription self;
+  RefusedBody refused;
+};
+
+/// Routes requests: frames and events to the journal, triggers and results to the verifications,
+/// questions to a snapshot, status, metrics and the API's description.
+HttpHandler http_routes(HttpBackend backend);
 
 /// Answers a GET of the belief or of the daemon itself; for HTTP and LCM alike.
-HttpResponse answer_get(const HttpTarget& target, const Journal& journal,
-                        const std::atomic<bool>& ready, const SelfDescription& self);
+HttpResponse answer_get(const HttpTarget& target, const HttpBackend& backend);
 
 }  // namespace anchord

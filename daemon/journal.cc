@@ -8,6 +8,8 @@
 
 #include "lcmtypes/checked_decode.h"
 #include "lcmtypes/codec.h"
+#include "lcmtypes/event_codec.h"
+#include "lcmtypes/verification_codec.h"
 
 namespace anchord {
 
@@ -35,8 +37,7 @@ Journal::~Journal() {
 Status Journal::restore(const std::atomic<bool>& cancelled) {
   Status folded = Done{};
   Status read = log_->for_each(1, [&](const LoggedFrame& logged) {
-    const auto message = decode_frame(logged.bytes);
-    folded = message ? world_.apply(message->frame) : Status(message.error());
+    folded = apply(logged);
     if (folded && hooks_.alive) hooks_.alive();
     if (!folded)
       folded = Error{folded.error().code, folded.error().field,
@@ -54,6 +55,34 @@ Status Journal::restore(const std::atomic<bool>& cancelled) {
   return Done{};
 }
 
+/// What stands in the log.
+Status Journal::apply(const LoggedFrame& logged) {
+  if (logged.kind == LoggedFrame::Kind::kEvent) {
+    const auto message = decode_event(logged.bytes);
+    if (!message) return message.error();
+    const auto number = world_.apply(message->event);
+    return number ? Status(Done{}) : Status(number.error());
+  }
+  const auto message = decode_frame(logged.bytes);
+  return message ? world_.apply(message->frame) : Status(message.error());
+}
+
+Result<std::vector<Task>> Journal::tasks() {
+  std::vector<Task> out;
+  Status good = Done{};
+  const Status read = log_->for_each_task([&](std::int64_t, std::span<const std::uint8_t> bytes) {
+    const auto message = decode_task(bytes);
+    if (message)
+      out.push_back(message->task);
+    else
+      good = message.error();
+    return good.ok();
+  });
+  if (!read) return read.error();
+  if (!good) return good.error();
+  return out;
+}
+
 void Journal::start() {
   thread_ = std::thread([this] { run(); });
 }
@@ -61,8 +90,8 @@ void Journal::start() {
 bool Journal::submit(Submission submission) {
   {
     std::lock_guard lock(mutex_);
-    if (ending_ || waiting_ + submission.frames.size() > kQueue) return false;
-    waiting_ += submission.frames.size();
+    if (ending_ || waiting_ + submission.size() > kQueue) return false;
+    waiting_ += submission.size();
     queue_.push_back(std::move(submission));
   }
   wake_.notify_one();
@@ -79,7 +108,7 @@ void Journal::run() {
     if (!queue_.empty()) {
       Submission submission = std::move(queue_.front());
       queue_.pop_front();
-      waiting_ -= submission.frames.size();
+      waiting_ -= submission.size();
       const bool too_late = ending_ && Clock::now() >= ends_;
       lock.unlock();
       if (too_late)
@@ -102,11 +131,12 @@ bool Journal::commit_is_due() const {
   return Clock::now() >= batch_began_ + kBatch || (queue_.empty() && (awaited_ || ending_));
 }
 
-/// All frames of the submission or none.
+/// All of the submission or none.
 void Journal::take(Submission submission) {
-  std::optional<World> before;  // only several frames can fail half-way
-  if (submission.frames.size() > 1) before = world_;
+  std::optional<World> before;  // only several can fail half-way
+  if (submission.frames.size() + submission.events.size() > 1) before = world_;
   std::vector<Folded> folded;
+  Receipt receipt;
   for (std::size_t i = 0; i < submission.frames.size(); ++i) {
     const Status done = fold(submission.frames[i], folded);
     if (done) continue;
@@ -116,13 +146,19 @@ void Journal::take(Submission submission) {
       why.field = "[" + std::to_string(i) + "]" + (why.field.empty() ? "" : ".") + why.field;
     return refuse(submission, &submission.frames[i], why);
   }
-  if (Status logged = append(folded); !logged) {
+  receipt.accepted = folded.size();
+  receipt.repeated = submission.frames.size() - folded.size();
+  for (const Event& event : submission.events)
+    if (const Status done = fold(event, folded, receipt); !done) {
+      if (before) world_ = *std::move(before);
+      return refuse(submission, nullptr, done.error());
+    }
+  if (Status logged = append(folded, submission.tasks); !logged) {
     roll_back(logged.error());
     return refuse(submission, nullptr, logged.error());
   }
   for (const Folded& one : folded) publish(one.after);
 
-  const Receipt receipt{folded.size(), submission.frames.size() - folded.size()};
   if (!batch_open_) {  // all of it is durable already
     statistics_.repeated += receipt.repeated;
     if (submission.done) submission.done(receipt);
@@ -134,7 +170,8 @@ void Journal::take(Submission submission) {
 
 /// Adds to `folded` unless the frame is in the log, or there, already.
 Status Journal::fold(const Frame& frame, std::vector<Folded>& folded) {
-  LoggedFrame logged{0, frame.utime, frame.robot, frame.sensor, canonical_bytes(frame)};
+  LoggedFrame logged{LoggedFrame::Kind::kFrame, 0, frame.utime, frame.robot, frame.sensor,
+                     canonical_bytes(frame)};
   if (const auto newest = world_.newest(frame); newest && frame.utime <= *newest) {
     const auto again = repeated(logged, folded);
     if (!again) return again.error();
@@ -150,12 +187,31 @@ Status Journal::fold(const Frame& frame, std::vector<Folded>& folded) {
   return Done{};
 }
 
+/// The same for an event.
+Status Journal::fold(const Event& event, std::vector<Folded>& folded, Receipt& receipt) {
+  LoggedFrame logged{LoggedFrame::Kind::kEvent, 0, event.utime, event.robot, event.sensor,
+                     canonical_bytes(event)};
+  const auto again = log_->contains_event(event.utime, logged.bytes);
+  if (!again) return again.error();
+  if (*again) {
+    receipt.events.push_back(0);
+    return Done{};
+  }
+  const auto message = decode_event(logged.bytes);
+  if (!message) return message.error();
+  const auto number = world_.apply(message->event);
+  if (!number) return number.error();
+  receipt.events.push_back(*number);
+  folded.push_back({std::move(logged), world_.belief()});
+  return Done{};
+}
+
 /// Whether the log, or `folded`, has the frame; kConflict if it has another in its place.
 Result<bool> Journal::repeated(const LoggedFrame& frame, const std::vector<Folded>& folded) {
   auto presence = FrameLog::Presence::kNo;
   const auto same_time = std::find_if(folded.begin(), folded.end(), [&](const Folded& one) {
-    return one.frame.utime == frame.utime && one.frame.sensor == frame.sensor &&
-           one.frame.robot == frame.robot;
+    return one.frame.kind == frame.kind && one.frame.utime == frame.utime &&
+           one.frame.sensor == frame.sensor && one.frame.robot == frame.robot;
   });
   if (same_time != folded.end()) {
     presence = same_time->frame.bytes == frame.bytes ? FrameLog::Presence::kSame
@@ -171,15 +227,17 @@ Result<bool> Journal::repeated(const LoggedFrame& frame, const std::vector<Folde
   return presence == FrameLog::Presence::kSame;
 }
 
-Status Journal::append(const std::vector<Folded>& folded) {
-  if (folded.empty()) return Done{};
+Status Journal::append(const std::vector<Folded>& folded, const std::vector<Task>& tasks) {
+  if (folded.empty() && tasks.empty()) return Done{};
   if (!std::exchange(batch_open_, true)) batch_began_ = Clock::now();
   for (const Folded& one : folded) {
     LoggedFrame frame = one.frame;
     frame.sequence = ++sequence_;
     if (Status logged = log_->append(frame); !logged) return logged;
   }
-  return Done{};
+  for (const Task& task : tasks)
+    if (Status kept = log_->put_task(task.id, canonical_bytes(task)); !kept) return kept;
+  return tasks.empty() ? Status(Done{}) : log_->keep_tasks(kTasks);
 }
 
 void Journal::commit() {

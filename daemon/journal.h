@@ -13,7 +13,9 @@
 
 #include "anchoring/world.h"
 #include "api/answers.h"
+#include "core/event.h"
 #include "core/frame.h"
+#include "core/verification.h"
 #include "daemon/statistics.h"
 #include "knowledge/frame_log.h"
 
@@ -23,16 +25,22 @@ namespace anchord {
 struct Receipt {
   std::size_t accepted = 0;  ///< frames that were applied and are durable
   std::size_t repeated = 0;  ///< frames that are in the log, durable, from an earlier time
+  /// Of each event its number, which an undo names; 0 for one that is in the log already.
+  std::vector<std::int64_t> events;
 };
 
-/// Frames that stand or fall together.
+/// Frames, events after them, and the tasks that they change: they stand or fall together.
 struct Submission {
   std::vector<Frame> frames;
   std::string origin;  ///< an LCM channel, or HTTP; for messages
   bool array = false;  ///< errors name the frame by its index
-  /// Called once, on the journal's thread: when the frames are durable and applied, or with the
+  /// Called once, on the journal's thread: when all of it is durable and applied, or with the
   /// refusal. May be empty.
   std::function<void(Result<Receipt>)> done;
+  std::vector<Event> events = {};
+  std::vector<Task> tasks = {};
+
+  std::size_t size() const { return frames.size() + events.size() + tasks.size(); }
 };
 
 /// The one writer: folds submissions into the world, appends them to the frame log, commits in
@@ -70,6 +78,8 @@ class Journal {
   /// Folds the log; to be called once, before start(). Stops when `cancelled` turns true.
   /// Fails if a logged frame cannot be read under this configuration.
   Status restore(const std::atomic<bool>& cancelled);
+  /// The tasks that the log keeps; after restore(), before start().
+  Result<std::vector<Task>> tasks();
   void start();
 
   /// Hands frames in, from any thread. False, and `done` not called, if too many wait.
@@ -90,12 +100,16 @@ class Journal {
     LoggedFrame frame;
     std::shared_ptr<const Belief> after;
   };
+  /// Tasks that the log keeps.
+  static constexpr std::int64_t kTasks = 2000;
   void run();
   bool commit_is_due() const;
   void take(Submission submission);
   Status fold(const Frame& frame, std::vector<Folded>& folded);
+  Status fold(const Event& event, std::vector<Folded>& folded, Receipt& receipt);
   Result<bool> repeated(const LoggedFrame& frame, const std::vector<Folded>& folded);
-  Status append(const std::vector<Folded>& folded);
+  Status append(const std::vector<Folded>& folded, const std::vector<Task>& tasks);
+  Status apply(const LoggedFrame& logged);
   void commit();
   void roll_back(const Error& why);
   void refuse(Submission& submission, const Frame* frame, const Error& why);

@@ -30,15 +30,21 @@ LcmFront::LcmFront(std::unique_ptr<LcmBus> bus, Statistics& statistics)
       refusals_(kRefusalsWaiting),
       questions_(kQuestionsWaiting) {}
 
-Status LcmFront::start(Journal& journal, Answerer answerer) {
-  if (Status s = bus_->subscribe(kDetectionsChannel,
-                                 [this, &journal](auto bytes) { receive_frame(bytes, journal); });
-      !s)
-    return s;
-  if (Status s = bus_->subscribe(kQueryChannel, [this, ask = std::move(answerer)](
-                                                    auto bytes) { receive_query(bytes, ask); });
-      !s)
-    return s;
+Status LcmFront::start(Journal& journal, Verifications& verifications, const Robots& robots,
+                       Answerer answerer) {
+  const std::pair<const char*, LcmBus::Handler> handlers[] = {
+      {kDetectionsChannel, [this, &journal](auto bytes) { receive_frame(bytes, journal); }},
+      {kEventChannel,
+       [this, &journal, &robots](auto bytes) { receive_event(bytes, journal, robots); }},
+      {kTriggerChannel,
+       [this, &verifications](auto bytes) { receive_trigger(bytes, verifications); }},
+      {kResultChannel,
+       [this, &verifications](auto bytes) { receive_result(bytes, verifications); }},
+      {kPoseChannel, [this, &verifications](auto bytes) { receive_pose(bytes, verifications); }},
+      {kQueryChannel,
+       [this, ask = std::move(answerer)](auto bytes) { receive_query(bytes, ask); }}};
+  for (const auto& [channel, handler] : handlers)
+    if (Status s = bus_->subscribe(channel, handler); !s) return s;
   bus_->start();
   return Done{};
 }

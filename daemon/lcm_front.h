@@ -10,7 +10,9 @@
 #include "api/http_message.h"
 #include "api/lcm_bus.h"
 #include "daemon/journal.h"
+#include "daemon/robots.h"
 #include "daemon/statistics.h"
+#include "daemon/verifications.h"
 #include "daemon/worker.h"
 
 namespace anchord {
@@ -26,7 +28,8 @@ class LcmFront {
   LcmFront(const LcmFront&) = delete;
   LcmFront& operator=(const LcmFront&) = delete;
 
-  Status start(Journal& journal, Answerer answerer);
+  Status start(Journal& journal, Verifications& verifications, const Robots& robots,
+               Answerer answerer);
   /// Receives no more, and answers the questions that wait; the journal may go then.
   void stop();
 
@@ -34,6 +37,8 @@ class LcmFront {
   /// behind, a world is left out, which shows as a gap in `seq`. One thread at a time.
   void publish_world(std::shared_ptr<const Belief> belief,
                      std::shared_ptr<const Background> background);
+  /// Publishes a task as it is now, on a thread of the front's own. Safe from any thread.
+  void publish_task(const Task& task, Utime now);
   /// Publishes a refusal on ANCHORD_REJECTED, on another thread, unless very many wait there.
   /// `frame` is null if it could not be read. Safe from any thread.
   void publish_refusal(const std::string& origin, const Frame* frame, const Error& why);
@@ -42,6 +47,11 @@ class LcmFront {
 
  private:
   void receive_frame(std::span<const std::uint8_t> bytes, Journal& journal);
+  void receive_event(std::span<const std::uint8_t> bytes, Journal& journal, const Robots& robots);
+  void receive_trigger(std::span<const std::uint8_t> bytes, Verifications& verifications);
+  void receive_result(std::span<const std::uint8_t> bytes, Verifications& verifications);
+  void receive_pose(std::span<const std::uint8_t> bytes, Verifications& verifications);
+  void refuse(const char* channel, const Error& why);
   void receive_query(std::span<const std::uint8_t> bytes, const Answerer& answerer);
   void send(const char* channel, const std::vector<std::uint8_t>& bytes);
 

@@ -23,11 +23,7 @@ Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge, const Servic
   if (!bus) return bus.error();
   std::unique_ptr<Service> service(
       new Service(std::move(knowledge), options, std::move(*log), std::move(*bus)));
-  auto http = HttpServer::start(
-      options.http_address, http_routes(*service->journal_, service->ready_, service->statistics_,
-                                        service->self(), [&lcm = *service->lcm_](const Error& why) {
-                                          lcm.publish_refusal(kHttpOrigin, nullptr, why);
-                                        }));
+  auto http = HttpServer::start(options.http_address, http_routes(service->backend()));
   if (!http) return http.error();
   service->http_ = std::move(*http);
   service->listening_ = service->http_.get();
@@ -55,6 +51,8 @@ Service::Service(Knowledge knowledge, const ServiceOptions& options, std::unique
   };
   journal_ = std::make_unique<Journal>(std::move(world), std::move(log), statistics_, times_,
                                        std::move(hooks));
+  verifications_ = std::make_unique<Verifications>(
+      *journal_, robots_, [this](const Task& task, Utime now) { lcm_->publish_task(task, now); });
 }
 
 Service::~Service() { stop(); }
@@ -66,12 +64,14 @@ Status Service::start(const std::atomic<bool>& cancelled) {
   if (journal_->logged_frames() > 0)
     spdlog::info("restored the belief from {} frames in {:.1f} s", journal_->logged_frames(),
                  seconds() - begin);
+  if (Status taken_up = verifications_->start(); !taken_up) return taken_up;
   journal_->start();
   ready_ = true;
-  const auto answerer = [this](const HttpTarget& target) {
-    return answer_get(target, *journal_, ready_, self());
+  const auto answerer = [backend = backend()](const HttpTarget& target) {
+    return answer_get(target, backend);
   };
-  if (Status received = lcm_->start(*journal_, answerer); !received) return received;
+  if (Status received = lcm_->start(*journal_, *verifications_, robots_, answerer); !received)
+    return received;
   sd_notify(0, "READY=1");
   spdlog::info("ready: http://{} and LCM {}", sources().http_address, lcm_->url());
   return Done{};
@@ -85,21 +85,28 @@ void Service::stop() {
   if (http_) http_->stop(kDrain);
   listening_ = nullptr;
   http_.reset();
+  verifications_->stop();
   journal_.reset();  // applies and commits what waits
   lcm_.reset();      // after it has published what came of that
 }
 
-SelfDescription Service::self() {
-  return {[this] { return status_answer(sources()); },
-          [this] { return metrics_answer(sources()); }};
+HttpBackend Service::backend() {
+  return {
+      *journal_,
+      *verifications_,
+      robots_,
+      ready_,
+      statistics_,
+      {[this] { return status_answer(sources()); }, [this] { return metrics_answer(sources()); }},
+      [&lcm = *lcm_](const Error& why) { lcm.publish_refusal(kHttpOrigin, nullptr, why); }};
 }
 
 StatusSources Service::sources() const {
   std::string address = options_.http_address;
   const HttpServer* http = listening_;
   if (http) address = address.substr(0, address.rfind(':') + 1) + std::to_string(http->port());
-  return {statistics_, times_, *journal_,         http, options_.data_directory, lcm_->url(),
-          address,     ready_, seconds() - began_};
+  return {statistics_, times_,  *journal_, *verifications_,   http, options_.data_directory,
+          lcm_->url(), address, ready_,    seconds() - began_};
 }
 
 }  // namespace anchord

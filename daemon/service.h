@@ -8,7 +8,9 @@
 #include "daemon/http_front.h"
 #include "daemon/journal.h"
 #include "daemon/lcm_front.h"
+#include "daemon/robots.h"
 #include "daemon/status.h"
+#include "daemon/verifications.h"
 
 namespace anchord {
 
@@ -38,7 +40,7 @@ class Service {
  private:
   Service(Knowledge knowledge, const ServiceOptions& options, std::unique_ptr<FrameLog> log,
           std::unique_ptr<LcmBus> bus);
-  SelfDescription self();
+  HttpBackend backend();
   StatusSources sources() const;
 
   ServiceOptions options_;
@@ -47,7 +49,9 @@ class Service {
   Statistics statistics_;
   UpdateTimes times_;
   std::unique_ptr<LcmFront> lcm_;
+  Robots robots_;
   std::unique_ptr<Journal> journal_;
+  std::unique_ptr<Verifications> verifications_;
   std::unique_ptr<HttpServer> http_;
   std::atomic<HttpServer*> listening_{nullptr};  ///< http_, for those whom it serves
 };

@@ -82,6 +82,8 @@ HttpResponse status_answer(const StatusSources& from) {
                 {"frames", s.received_lcm.load()},
                 {"refused", s.refused_lcm.load()},
                 {"published", s.published_lcm.load()}};
+  const auto [queued, issued] = from.verifications.open();
+  out["verifications"] = {{"queued", queued}, {"issued", issued}};
   out["http"] = {{"address", from.http_address}};
   if (from.http) {
     const HttpCounters& http = from.http->counters();
@@ -122,6 +124,9 @@ HttpResponse metrics_answer(const StatusSources& from) {
   out.add("expected_count", "gauge", "expected number of objects", size.expected);
   out.add("hypotheses", "gauge", "hypotheses kept", size.hypotheses);
   out.add("clusters", "gauge", "independent clusters", belief->clusters.size());
+  const auto [queued, issued] = from.verifications.open();
+  out.add("verifications_queued", "gauge", "verification tasks that wait", queued);
+  out.add("verifications_issued", "gauge", "verification tasks that are being done", issued);
   if (from.http) {
     const HttpCounters& http = from.http->counters();
     out.add("http_connections", "gauge", "open connections", http.open.load());

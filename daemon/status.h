@@ -5,6 +5,7 @@
 #include "api/http_server.h"
 #include "daemon/journal.h"
 #include "daemon/statistics.h"
+#include "daemon/verifications.h"
 
 namespace anchord {
 
@@ -13,6 +14,7 @@ struct StatusSources {
   const Statistics& statistics;
   const UpdateTimes& times;
   const Journal& journal;
+  const Verifications& verifications;
   const HttpServer* http;  ///< null while it does not listen yet
   std::string data_directory, lcm_url, http_address;
   bool ready;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/anchoring/small_world.h"
+#include "tests/anchoring/small_events.h"
 
 namespace anchord {
 namespace {
@@ -292,6 +292,29 @@ TEST(Answers, RefusalsNameTheField) {
   refused("/v1/hypotheses?limit=0", 400, "limit");
   refused("/v1/hypotheses?limit=ten", 400, "limit");
   refused("/v1/objects/cup-1?class=cup", 400, "class");
+}
+
+TEST(Answers, AnAliasIsAskedForLikeAnId) {
+  World world = ambiguous();
+  const std::string id = ids(world)[0];
+  apply(world, named(1.5, id, "my mug"));
+  EXPECT_EQ(get(world, "/v1/objects/my%20mug"), get(world, "/v1/objects/" + id));
+  EXPECT_EQ(get(world, "/v1/objects/my%20mug")["alias"], "my mug");
+  const Json where = get(world, "/v1/where?object=my%20mug");
+  ASSERT_EQ(where["answers"].size(), 1u);
+  EXPECT_EQ(where["answers"][0]["object"], id);
+  EXPECT_EQ(ask(world, "/v1/objects/his%20mug").status, 404);
+}
+
+TEST(Answers, AnObjectThatIsMissingHasAModelForIt) {
+  World world(small_world());
+  apply(world, {frame(1, {at(1.5, 1.5)})});
+  apply(world, missing(1, "cup-1", box_of_interest(1, 1, 2, 2)));
+  const Json models = get(world, "/v1/objects/cup-1")["models"];
+  ASSERT_EQ(models.size(), 2u);
+  EXPECT_EQ(models[1]["kind"], "somewhere");
+  EXPECT_NEAR(models[1]["weight"], 0.9, kRounding);  // p_D
+  EXPECT_TRUE(models[1]["place"].is_null()) << "the world";
 }
 
 }  // namespace

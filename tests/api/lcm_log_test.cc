@@ -171,5 +171,40 @@ TEST(LcmLog, SaysWhenItCannotWrite) {
   EXPECT_EQ(written.error().code, ErrorCode::kIo);
 }
 
+TEST(LcmLog, GivesBackFramesAndEventsInTheirOrder) {
+  std::ostringstream stream;
+  LcmLogWriter writer(stream);
+  Event done;
+  done.kind = Event::Kind::kNamed;
+  done.utime = 2;
+  done.object = "cup-1";
+  done.other = "my mug";
+  EXPECT_TRUE(writer.write_frame(frame_at(1)).ok());
+  EXPECT_TRUE(writer.write_event(done).ok());
+  EXPECT_TRUE(writer.write("CAMERA", 2, std::vector<std::uint8_t>(10, 7)).ok());
+  EXPECT_TRUE(writer.write(kEventChannel, 2, std::vector<std::uint8_t>(10, 7)).ok());
+  EXPECT_TRUE(writer.write_frame(frame_at(3)).ok());
+  std::istringstream log(stream.str());
+  LcmLogReader reader(log);
+  auto next = reader.next_input();
+  ASSERT_TRUE(next && *next);
+  EXPECT_EQ(std::get<Frame>(**next).utime, 1);
+  next = reader.next_input();
+  ASSERT_TRUE(next && *next);
+  EXPECT_EQ(std::get<Event>(**next), done);
+  next = reader.next_input();
+  ASSERT_FALSE(next.ok()) << "no event";
+  EXPECT_TRUE(next.error().field.starts_with("event[3]")) << next.error().text();
+  next = reader.next_input();
+  ASSERT_TRUE(next && *next);
+  EXPECT_EQ(std::get<Frame>(**next).utime, 3);
+  next = reader.next_input();
+  EXPECT_TRUE(next && !*next);
+  std::istringstream again(stream.str());
+  LcmLogReader frames(again);
+  EXPECT_EQ((*frames.next_frame())->frame.utime, 1);
+  EXPECT_EQ((*frames.next_frame())->frame.utime, 3);
+}
+
 }  // namespace
 }  // namespace anchord

@@ -131,7 +131,10 @@ TEST(Restart, ATerminationEndsARestoreToo) {
     ASSERT_TRUE(log.ok());
     for (int i = 1; i <= kHistory; ++i) {
       const Frame frame = frame_number(i);
-      ASSERT_TRUE((*log)->append({i, frame.utime, "", frame.sensor, canonical_bytes(frame)}).ok());
+      ASSERT_TRUE((*log)
+                      ->append({LoggedFrame::Kind::kFrame, i, frame.utime, "", frame.sensor,
+                                canonical_bytes(frame)})
+                      .ok());
     }
     ASSERT_TRUE((*log)->commit().ok());
   }

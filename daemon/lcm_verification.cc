@@ -1,0 +1,58 @@
+// What the daemon receives on LCM beside frames and questions.
+
+#include <utility>
+
+#include "daemon/lcm_front.h"
+#include "daemon/verification_routes.h"
+#include "lcmtypes/channels.h"
+#include "lcmtypes/event_codec.h"
+#include "lcmtypes/verification_codec.h"
+
+namespace anchord {
+
+void LcmFront::refuse(const char* channel, const Error& why) {
+  ++statistics_.refused_lcm;
+  publish_refusal(channel, nullptr, why);
+}
+
+void LcmFront::receive_event(std::span<const std::uint8_t> bytes, Journal& journal,
+                             const Robots& robots) {
+  auto message = decode_event(bytes);
+  if (!message) return refuse(kEventChannel, message.error());
+  Submission submission{{}, kEventChannel, false, {}};
+  submission.events = {with_robot(std::move(message->event), robots)};
+  if (!journal.submit(std::move(submission)))
+    refuse(kEventChannel, {ErrorCode::kUnavailable, "", "too much waits to be applied"});
+}
+
+void LcmFront::receive_trigger(std::span<const std::uint8_t> bytes, Verifications& verifications) {
+  const auto message = decode_trigger(bytes);
+  if (!message) return refuse(kTriggerChannel, message.error());
+  const auto done = [this](const Result<std::optional<Task>>& task) {
+    if (!task) refuse(kTriggerChannel, task.error());
+  };
+  if (message->cancel)
+    verifications.cancel(message->task, done);
+  else
+    verifications.trigger(message->trigger, done);
+}
+
+void LcmFront::receive_result(std::span<const std::uint8_t> bytes, Verifications& verifications) {
+  const auto result = decode_result(bytes);
+  if (!result) return refuse(kResultChannel, result.error());
+  verifications.result(*result, [this](const Result<std::optional<Task>>& task) {
+    if (!task) refuse(kResultChannel, task.error());
+  });
+}
+
+void LcmFront::receive_pose(std::span<const std::uint8_t> bytes, Verifications& verifications) {
+  const auto pose = decode_pose(bytes);
+  if (!pose) return refuse(kPoseChannel, pose.error());
+  if (Status taken = verifications.pose(*pose); !taken) refuse(kPoseChannel, taken.error());
+}
+
+void LcmFront::publish_task(const Task& task, Utime now) {
+  publisher_.post([this, bytes = encode(TaskMessage{now, task})] { send(kTaskChannel, bytes); });
+}
+
+}  // namespace anchord
