@@ -39,7 +39,7 @@ Result<std::optional<Task>> Coordinator::add(const Trigger& trigger, const std::
     if (*rule == Maintenance::Verify::kNothing) return std::optional<Task>();
   }
   if (!(trigger.timeout_s >= 0 && trigger.timeout_s <= kMaxTimeout))
-    return invalid("timeout_s", "must be seconds from 0 (the configured time) to a million");
+    return invalid("timeout", "must be seconds from 0 (the configured time) to a million");
   if (!trigger.sensor.empty() && std::find(site_.sensor_names.begin(), site_.sensor_names.end(),
                                            trigger.sensor) == site_.sensor_names.end())
     return invalid("sensor",

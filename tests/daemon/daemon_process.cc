@@ -26,7 +26,7 @@ DaemonProcess::DaemonProcess(const TestFolder& folder, Options options,
   static std::atomic<int> number{0};
   errors_file_ = folder / ("errors-" + std::to_string(++number));
   if (arguments.empty())
-    arguments = {"--config", folder.write("scene.json", kScene),
+    arguments = {"--config", folder.write("scene.json", options.scene),
                  "--data",   folder / options.data,
                  "--lcm",    options.lcm,
                  "--http",   options.http};

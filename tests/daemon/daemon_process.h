@@ -13,7 +13,7 @@
 
 namespace anchord {
 
-/// The program itself, in a process of its own, with `kScene` and a data directory in `folder`.
+/// The program itself, in a process of its own, with `kScene`, unless said otherwise, and a data directory in `folder`.
 /// On a free port, and on an LCM network that holds nobody else, unless said otherwise.
 class DaemonProcess {
  public:
@@ -21,6 +21,7 @@ class DaemonProcess {
     std::string data = "data";  ///< in the folder
     std::string lcm = "memq://";
     std::string http = "127.0.0.1:0";      ///< port 0: a free one
+    std::string scene = kScene;            ///< the configuration
     std::vector<std::string> environment;  ///< NAME=VALUE, beside that of the test
     /// In the child before it becomes the daemon; it ends with this status unless that is 0.
     std::function<int()> prepare;

@@ -119,9 +119,9 @@ TEST_F(Triggers, WrongOnesAreRefusedByField) {
   nose.sensor = "nose";
   never.timeout_s = -1;
   EXPECT_EQ(add("cup-1", 1, nose).error().field, "sensor");
-  EXPECT_EQ(add("cup-1", 1, never).error().field, "timeout_s");
+  EXPECT_EQ(add("cup-1", 1, never).error().field, "timeout");
   never.timeout_s = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(add("cup-1", 1, never).error().field, "timeout_s");
+  EXPECT_EQ(add("cup-1", 1, never).error().field, "timeout");
   EXPECT_TRUE(coordinator.tasks().empty());
 }
 
