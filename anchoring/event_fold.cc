@@ -216,9 +216,11 @@ void happen_to(Belief& belief, const AnchorPlace& at, const MapEvent& event,
   const Cluster& cluster = *belief.clusters[at.cluster];
   const Anchor& anchor = *cluster.anchors[at.anchor].anchor;
   switch (e.kind) {
-    case Kind::kMissing:
+    case Kind::kMissing: {
+      LookedAt looked_at(event);
       return change_anchor(belief, at, background,
-                           [&](Leaf& leaf) { lose(leaf, event, background); });
+                           [&](Leaf& leaf) { lose(leaf, *event.sensor, looked_at, background); });
+    }
     case Kind::kNamed:
       set_aside(belief, {event.number, {}, anchor.birth, anchor.alias});
       return give_alias(belief, at, e.other);

@@ -9,30 +9,33 @@ namespace {
 /// How much of a place is all of it, to rounding.
 constexpr double kAll = 1e-9;
 
-/// The model of a class that is a `somewhere`, the first: every class has one.
-std::size_t somewhere_among(const std::vector<BehaviourModel>& models) {
-  std::size_t m = 0;
-  while (models[m].tracked()) ++m;
-  return m;
+/// A `somewhere` of a class, and its share of what is lost: as much as it takes of what the tracked
+/// models lose anyway.
+struct Exit {
+  std::size_t model = 0;
+  double share = 0;
+};
+
+/// Those of a class: every class has one.
+std::vector<Exit> exits_among(const std::vector<BehaviourModel>& models) {
+  std::vector<Exit> exits;
+  double rates = 0;
+  for (std::size_t m = 0; m < models.size(); ++m)
+    if (!models[m].tracked()) {
+      exits.push_back({m, models[m].rate});
+      rates += models[m].rate;
+    }
+  for (Exit& exit : exits)
+    exit.share = rates > 0 ? exit.share / rates : 1 / static_cast<double>(exits.size());
+  return exits;
 }
 
-/// That of a leaf; one that its class only implies is made.
-ModelState& somewhere_of(Leaf& leaf, const Background& background) {
+/// A model of a leaf; one that its class only implies is made.
+ModelState& model_of(Leaf& leaf, std::size_t m, const Background& background) {
   const auto& models = background.object_class(leaf.model_class).models;
-  const std::size_t m = somewhere_among(models);
   if (m == leaf.models.size())
     leaf.models.push_back({0, Somewhere(background.footprint(models[m].place))});
   return leaf.models[m];
-}
-
-/// Per cell of a footprint the share that was looked at.
-std::vector<double> looked_at(const Footprint& footprint, const std::vector<Region>& regions) {
-  std::vector<double> share(footprint.cells.size(), 0.0);
-  for (const Region& region : regions) {
-    const auto part = footprint.overlap(region);
-    for (std::size_t i = 0; i < share.size(); ++i) share[i] = std::min(share[i] + part[i], 1.0);
-  }
-  return share;
 }
 
 Kinematic at_rest(const Gaussian& at, const BehaviourModel& model, int dims) {
@@ -59,6 +62,17 @@ void multiply(std::vector<double>& values, const std::vector<double>& by) {
 
 }  // namespace
 
+const std::vector<double>& LookedAt::of(const Footprint& footprint) {
+  const auto [it, made] = shares_.try_emplace(&footprint, footprint.cells.size(), 0.0);
+  std::vector<double>& share = it->second;
+  if (!made) return share;
+  for (const Region& region : regions_) {
+    const auto part = footprint.overlap(region);
+    for (std::size_t i = 0; i < share.size(); ++i) share[i] = std::min(share[i] + part[i], 1.0);
+  }
+  return share;
+}
+
 void put_at(Leaf& leaf, const Gaussian& at, const Background& background) {
   const int target = background.dynamics[leaf.model_class].first_detectable;
   const BehaviourModel& model = background.object_class(leaf.model_class).models[target];
@@ -75,27 +89,40 @@ void rest(Leaf& leaf, const Background& background) {
 
 void put_somewhere(Leaf& leaf, int place, const Background& background) {
   const auto& models = background.object_class(leaf.model_class).models;
-  if (place < 0) place = models[somewhere_among(models)].place;
-  const Somewhere there(background.footprint(place));
-  const Gaussian moments = there.moments();
-  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
-    leaf.models[m].weight = 0;
-    if (models[m].tracked()) leaf.models[m].density = at_rest(moments, models[m], background.dims);
+  std::vector<Exit> exits = exits_among(models);
+  if (place >= 0) exits = {{exits.front().model, 1}};
+  for (ModelState& state : leaf.models) state.weight = 0;
+  const Exit* main = &exits.front();
+  for (const Exit& exit : exits) {
+    const int there = place >= 0 ? place : models[exit.model].place;
+    model_of(leaf, exit.model, background) = {exit.share, Somewhere(background.footprint(there))};
+    if (exit.share > main->share) main = &exit;
   }
-  somewhere_of(leaf, background) = {1, there};
+  const Gaussian moments = std::get<Somewhere>(leaf.models[main->model].density).moments();
+  for (std::size_t m = 0; m < leaf.models.size(); ++m)
+    if (models[m].tracked()) leaf.models[m].density = at_rest(moments, models[m], background.dims);
 }
 
-void lose(Leaf& leaf, const MapEvent& missing, const Background& background) {
+void lose(Leaf& leaf, const Sensor& sensor, LookedAt& looked_at, const Background& background) {
   if (leaf.held) return;
   const auto& models = background.object_class(leaf.model_class).models;
-  const auto& own = background.footprint(models[somewhere_among(models)].place);
-  const auto inside = looked_at(*own, missing.looked_at);
-  Somewhere elsewhere(own);
-  if (elsewhere.mass(inside) >= 1 - kAll) return;
-  elsewhere.miss(1, inside);
+  std::vector<Exit> exits = exits_among(models);
+  std::vector<Somewhere> elsewhere;
+  double open = 0;  // shares of the exits that were not looked at all over
+  for (Exit& exit : exits) {
+    const auto& own = background.footprint(models[exit.model].place);
+    const auto& inside = looked_at.of(*own);
+    Somewhere& density = elsewhere.emplace_back(own);
+    if (density.mass(inside) >= 1 - kAll)
+      exit.share = 0;
+    else
+      density.miss(1, inside);
+    open += exit.share;
+  }
+  if (open <= 0) return;
   double p = 0;
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
-    p += leaf.classes[c] * missing.sensor->detection_probability[c];
+    p += leaf.classes[c] * sensor.detection_probability[c];
 
   double moved = 0;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
@@ -103,23 +130,34 @@ void lose(Leaf& leaf, const MapEvent& missing, const Background& background) {
     moved += leaf.models[m].weight * p;
     leaf.models[m].weight *= 1 - p;
   }
-  ModelState& lost = somewhere_of(leaf, background);
-  auto& density = std::get<Somewhere>(lost.density);
-  if (lost.weight > 0 && density.footprint() != own) {
-    const auto seen = looked_at(*density.footprint(), missing.looked_at);
-    const double share = p * density.mass(seen);
-    moved += lost.weight * share;
-    density.miss(p, seen);
+  // A place that an event told is in the first exit.
+  ModelState& first = model_of(leaf, exits.front().model, background);
+  const auto& first_own = background.footprint(models[exits.front().model].place);
+  const Somewhere there = std::get<Somewhere>(first.density);
+  const double told = there.footprint() == first_own ? 0.0 : first.weight;
+  const double seen = told > 0 ? p * there.mass(looked_at.of(*there.footprint())) : 0.0;
+  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
+    auto* somewhere = std::get_if<Somewhere>(&leaf.models[m].density);
+    if (somewhere && models[m].detectable && leaf.models[m].weight > 0)
+      somewhere->miss(p, looked_at.of(*somewhere->footprint()));
+  }
+  if (told > 0) {
+    moved += told * seen;
+    const Gaussian rest_of_it = std::get<Somewhere>(first.density).moments();
+    first = {0, Somewhere(first_own)};
     const int home = background.dynamics[leaf.model_class].first_detectable;
-    follow(leaf.models[home], lost.weight * (1 - share), density.moments(), models[home],
-           background.dims);
-    lost = {0, Somewhere(own)};
-  } else if (lost.weight > 0) {
-    density.miss(p, inside);
+    follow(leaf.models[home], told * (1 - seen), rest_of_it, models[home], background.dims);
   }
   if (moved <= 0) return;
-  density = lost.weight > 0 ? Somewhere::merge(lost.weight, density, moved, elsewhere) : elsewhere;
-  lost.weight += moved;
+  for (std::size_t i = 0; i < exits.size(); ++i) {
+    const double entering = moved * exits[i].share / open;
+    if (entering <= 0) continue;
+    ModelState& lost = leaf.models[exits[i].model];
+    auto& density = std::get<Somewhere>(lost.density);
+    density = lost.weight > 0 ? Somewhere::merge(lost.weight, density, entering, elsewhere[i])
+                              : elsewhere[i];
+    lost.weight += entering;
+  }
 }
 
 Leaf fuse(const Leaf& a, const Leaf& b, const Background& background) {

@@ -207,6 +207,26 @@ TEST(Said, LaterEventsAboutAnObjectAreUndoneFirst) {
   EXPECT_EQ(every_object(world), before);
 }
 
+TEST(Said, ANameOrAJoinOnTopOfAnotherIsUndoneFirst) {
+  const std::vector<std::pair<Event, Event>> pairs{
+      {named(1, "cup-1", "my mug"), named(1, "cup-1", "the mug")},
+      {joined(1, "cup-1", "cup-2"), joined(1, "cup-1", "cup-3")},
+      {named(1, "cup-2", "my mug"), joined(1, "cup-1", "cup-2")}};
+  for (const auto& [one, two] : pairs) {
+    World world(small_world());
+    apply(world, {frame(1, {at(1.5, 1.5), at(5, 3), at(5, 1)})});
+    const std::string before = every_object(world);
+    const auto first = apply(world, one), second = apply(world, two);
+    const auto refused = world.apply(undone(1, first));
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().message.find("event " + std::to_string(second)), std::string::npos)
+        << refused.error().text();
+    apply(world, undone(1, second));
+    apply(world, undone(1, first));
+    EXPECT_EQ(every_object(world), before);
+  }
+}
+
 TEST(Said, EventsAboutOthersAreUndoneInAnyOrder) {
   World world = two_cups();
   const std::string before = every_object(world);

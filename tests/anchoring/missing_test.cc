@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/anchoring/small_events.h"
 
 namespace anchord {
@@ -113,6 +115,25 @@ TEST(Missing, TheSensorsOwnDetectionProbabilityCounts) {
   e.sensor = "glasses";
   apply(world, e);  // no class was reported: cup or box alike
   EXPECT_NEAR(leaf_of(world, "cup-1").models[1].weight, 0.6, kExactly);
+}
+
+TEST(Missing, WhatMovesIsSharedBetweenPlacesAsTheirRatesAre) {
+  World world = world_with_cup(small_world(R"({"classes": {"default": {"models": [
+      {"kind": "constant_position", "position_psd": 0},
+      {"kind": "somewhere", "place": "hall", "rate": 0.03},
+      {"kind": "somewhere", "place": "kitchen", "rate": 0.07}]}}})"));
+  apply(world, {blink(11)});  // a second of 0.1 / s, ten times
+  apply(world, missing(11, "cup-1", kTableTop));
+  const Leaf& leaf = leaf_of(world, "cup-1");
+  const double stays = std::exp(-1.0), moves = stays * kDetected;
+  EXPECT_NEAR(leaf.models[0].weight, stays * (1 - kDetected), kExactly);
+  EXPECT_NEAR(leaf.models[1].weight, 0.3 * (1 - stays + moves), kExactly);
+  EXPECT_NEAR(leaf.models[2].weight, 0.7 * (1 - stays + moves), kExactly);
+  // What was in the kitchen became less where it was looked for; what enters is not there at all.
+  const Eigen::Vector3d on_table(1.5, 1.5, 0);
+  EXPECT_NEAR(std::get<Somewhere>(leaf.models[2].density).density(on_table),
+              (1 - stays) / (1 - stays + moves) * (1 - kDetected) / (12 - kDetected * kTable),
+              kExactly);
 }
 
 TEST(Missing, SeveralRegionsCountOnceWhereTheyMeet) {

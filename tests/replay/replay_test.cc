@@ -12,11 +12,13 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
+#include <variant>
 
+#include "api/event_json.h"
 #include "api/frame_json.h"
 #include "api/lcm_log.h"
 #include "tests/anchoring/dice.h"
-#include "tests/anchoring/small_world.h"
+#include "tests/anchoring/small_events.h"
 
 namespace anchord {
 namespace {
@@ -26,6 +28,7 @@ using nlohmann::json;
 
 const std::string kConfiguration = R"(// Comments are allowed.
 {"world": {"dimensions": 2, "bounds": {"min": [0, 0], "max": [6, 4]}},
+ "places": [{"name": "sink", "kind": "surface", "polygon": [[4, 3], [5, 3], [5, 4], [4, 4]]}],
  "attributes": {"class": {"kind": "categorical", "symbols": ["cup", "box"]}},
  "sensors": {"default": {"view": {"type": "world"}}}})";
 
@@ -54,6 +57,31 @@ std::vector<Frame> random_frames() {
 std::string lines_of(const std::vector<Frame>& frames) {
   std::string out;
   for (const Frame& f : frames) out += to_json(f).dump() + "\n";
+  return out;
+}
+
+/// The frames, and between them what was done and said; one late, one ahead.
+std::vector<std::variant<Frame, Event>> random_inputs() {
+  std::vector<std::variant<Frame, Event>> inputs;
+  const auto frames = random_frames();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    inputs.emplace_back(frames[i]);
+    const double now = 0.1 * static_cast<double>(i);
+    if (i == 10) inputs.emplace_back(missing(now - 0.2, "cup-1", box_of_interest(0, 0, 2, 2)));
+    if (i == 15) inputs.emplace_back(named(now, "cup-1", "my mug"));
+    if (i == 20) inputs.emplace_back(event(Event::Kind::kGrasped, now + 0.2, "my mug"));
+    if (i == 22) inputs.emplace_back(carried(now, 3, 3));
+    if (i == 30) inputs.emplace_back(in_place(event(Event::Kind::kPlaced, now, "my mug"), "sink"));
+    if (i == 40) inputs.emplace_back(event(Event::Kind::kDropped, now, "cup-1"));
+    if (i == 42) inputs.emplace_back(undone(now, 47));  // 41 frames and 5 events before it
+  }
+  return inputs;
+}
+
+std::string lines_of(const std::vector<std::variant<Frame, Event>>& inputs) {
+  std::string out;
+  for (const auto& input : inputs)
+    out += std::visit([](const auto& one) { return to_json(one).dump(); }, input) + "\n";
   return out;
 }
 
@@ -129,6 +157,89 @@ TEST_F(Replay, AnLcmLogGivesTheSameBytesAsJsonLines) {
   }
 }
 
+TEST_F(Replay, EventsAmongFramesEachGetALine) {
+  const auto inputs = random_inputs();
+  write("frames.jsonl", lines_of(inputs));
+  ASSERT_EQ(run(kRun + "frames.jsonl --all --stats stats.json"), 0) << read("err");
+  const auto lines = split_lines(read("out"));
+  ASSERT_EQ(lines.size(), inputs.size());
+  const json stats = json::parse(read("stats.json"));
+  EXPECT_EQ(stats["frames"], random_frames().size());
+  EXPECT_EQ(stats["events"], 7);
+  bool held = false;
+  json before;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const json line = json::parse(lines[i]);
+    if (std::holds_alternative<Event>(inputs[i])) {
+      EXPECT_EQ(line["utime"], before["utime"]);
+      EXPECT_NE(line, before) << "line " << i + 1;
+    }
+    for (const json& object : line["objects"])
+      held = held || (object.contains("held_by") && object["alias"] == "my mug");
+    before = line;
+  }
+  EXPECT_TRUE(held);
+  EXPECT_NE(lines.back().find("my mug"), std::string::npos) << "dropped, and undone";
+}
+
+TEST_F(Replay, AnLcmLogOfEventsGivesTheSameBytesAsJsonLines) {
+  const auto inputs = random_inputs();
+  write("frames.jsonl", lines_of(inputs));
+  std::ofstream stream(folder_ / "frames.lcm", std::ios::binary);
+  LcmLogWriter log(stream);
+  for (const auto& input : inputs) {
+    const auto* f = std::get_if<Frame>(&input);
+    ASSERT_TRUE(f ? log.write_frame(*f).ok() : log.write_event(std::get<Event>(input)).ok());
+  }
+  stream.close();
+  ASSERT_EQ(run(kRun + "frames.jsonl --all --hypotheses 3"), 0) << read("err");
+  const std::string from_json = read("out");
+  ASSERT_EQ(run(kRun + "frames.jsonl --all --hypotheses 3"), 0);
+  EXPECT_EQ(read("out"), from_json) << "another run";
+  ASSERT_EQ(run(kRun + "frames.lcm --all --hypotheses 3"), 0) << read("err");
+  EXPECT_EQ(read("out"), from_json);
+}
+
+TEST_F(Replay, AnEventSentAgainIsPassedOver) {
+  auto inputs = random_inputs();
+  write("frames.jsonl", lines_of(inputs));
+  ASSERT_EQ(run(kRun + "frames.jsonl"), 0);
+  const std::string once = read("out");
+  const auto first = std::find_if(inputs.begin(), inputs.end(), [](const auto& input) {
+    return std::holds_alternative<Event>(input);
+  });
+  const auto again = *first;
+  inputs.insert(first + 1, again);
+  inputs.push_back(again);
+  write("frames.jsonl", lines_of(inputs));
+  ASSERT_EQ(run(kRun + "frames.jsonl"), 0) << read("err");
+  EXPECT_EQ(read("out"), once);
+}
+
+TEST_F(Replay, StopsAtARefusedEventAndNamesItsLine) {
+  const auto frames = random_frames();
+  const auto refusal = [&](const std::string& line) {
+    write("frames.jsonl", lines_of(std::vector<Frame>{frames[0], frames[1]}) + line + "\n");
+    EXPECT_EQ(run(kRun + "frames.jsonl"), 1);
+    EXPECT_EQ(split_lines(read("out")).size(), 2u);
+    return read("err");
+  };
+  const std::string unknown = to_json(event(Event::Kind::kGrasped, 0.1, "cup-9")).dump();
+  EXPECT_NE(refusal(unknown).find("frames.jsonl:3: object: "), std::string::npos) << read("err");
+  EXPECT_NE(refusal(R"({"event": "stolen", "utime": 1})").find("frames.jsonl:3: event: "),
+            std::string::npos)
+      << read("err");
+}
+
+TEST_F(Replay, A2DWorldTakesPositionsOfTwoNumbers) {
+  write("frames.jsonl", lines_of(std::vector<Frame>{random_frames()[0], random_frames()[2]}) +
+                            R"({"event": "moved", "object": "cup-1", "utime": )" +
+                            std::to_string(at_second(0.2)) + R"(, "position": [5, 1]})" + "\n");
+  ASSERT_EQ(run(kRun + "frames.jsonl"), 0) << read("err");
+  EXPECT_EQ(json::parse(split_lines(read("out")).back())["objects"][0]["position"],
+            json::array({5, 1}));
+}
+
 TEST_F(Replay, StandardInput) {
   ASSERT_EQ(run(kRun + "frames.jsonl"), 0);
   const std::string from_file = read("out");
@@ -168,7 +279,7 @@ TEST_F(Replay, StopsAtARefusedFrameAndNamesItsLine) {
 
 TEST_F(Replay, StopsAtALineThatIsNoFrame) {
   const auto frames = random_frames();
-  write("frames.jsonl", lines_of({frames[0], frames[1]}) + "\n{\"utime\": 17\n");
+  write("frames.jsonl", lines_of(std::vector<Frame>{frames[0], frames[1]}) + "\n{\"utime\": 17\n");
   EXPECT_EQ(run(kRun + "frames.jsonl"), 1);
   EXPECT_NE(read("err").find("frames.jsonl:4: "), std::string::npos) << read("err");
   EXPECT_EQ(split_lines(read("err")).size(), 1u);
@@ -269,7 +380,7 @@ TEST_F(Replay, TheDefaultConfigurationTakesFramesOfItsSensors) {
   Frame f = frame(0, {});
   f.detections.resize(1);
   f.detections[0].measurement = CartesianMeasurement{{1, 1, 1}, {.01, 0, 0, 0, .01, 0, 0, 0, .01}};
-  write("frames.jsonl", lines_of({f}));
+  write("frames.jsonl", lines_of(std::vector<Frame>{f}));
   EXPECT_EQ(run("--config '" ANCHORD_SOURCE_DIR "/config/home.json' --input frames.jsonl"), 0)
       << read("err");
 }

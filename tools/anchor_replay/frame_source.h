@@ -5,23 +5,29 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "api/lcm_log.h"
+#include "core/event.h"
 #include "core/frame.h"
 #include "core/result.h"
 
 namespace anchord {
 
-/// Frames from a file: JSON lines, or an LCM log if its name ends in `.lcm` or `.lcmlog`; "-" is
-/// standard input, JSON lines.
+/// What stood next in a file.
+using Input = std::variant<Frame, Event>;
+
+/// Frames and events from a file: JSON lines (one with a member `event` is an event), or an LCM log
+/// if its name ends in `.lcm` or `.lcmlog`; "-" is standard input, JSON lines. `dims`: the world's,
+/// for positions of events.
 class FrameSource {
  public:
-  static Result<std::unique_ptr<FrameSource>> open(const std::string& path);
+  static Result<std::unique_ptr<FrameSource>> open(const std::string& path, int dims);
 
-  /// The next frame, or nothing at the end. Empty lines are skipped.
-  Result<std::optional<Frame>> next();
+  /// The next frame or event, or nothing at the end. Empty lines are skipped.
+  Result<std::optional<Input>> next();
 
-  /// Where the last frame stood, for messages: "frames.jsonl:12" or "log.lcm: event 12".
+  /// Where the last one stood, for messages: "frames.jsonl:12" or "log.lcm: event 12".
   std::string position() const;
 
  private:
@@ -30,6 +36,7 @@ class FrameSource {
   std::istream* stream_ = nullptr;
   std::optional<LcmLogReader> log_;
   std::size_t line_ = 0;
+  int dims_ = 3;
 };
 
 }  // namespace anchord

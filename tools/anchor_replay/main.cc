@@ -1,4 +1,5 @@
-// anchor-replay: the engine without network or database. Frames in, the belief after each out.
+// anchor-replay: the engine without network or database. Frames and events in, the belief after
+// each out.
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -26,9 +27,10 @@ int main(int argc, char** argv) {
   bool no_timing = false, quiet = false;
   anchord::ReplayOptions options;
   app.add_option("--config", config, "configuration of the world")->required();
-  app.add_option("--input", input, "frames: JSON lines, an LCM log (.lcm, .lcmlog), or -")
+  app.add_option("--input", input,
+                 "frames and events: JSON lines, an LCM log (.lcm, .lcmlog), or -")
       ->required();
-  app.add_option("--output", output, "belief after each frame, JSON lines; - is standard output")
+  app.add_option("--output", output, "belief after each of them, JSON lines; - is standard output")
       ->capture_default_str();
   app.add_option("--stats", stats, "write what it took, as JSON");
   app.add_flag("--all", options.line.all, "every anchor of p >= 0.001, not only the best world");
@@ -50,7 +52,7 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "%s: %s\n", config.c_str(), mistake.text().c_str());
     return kWrongCall;
   }
-  auto source = anchord::FrameSource::open(input);
+  auto source = anchord::FrameSource::open(input, configuration.knowledge().dims);
   if (!source) return fail(kFailed, source.error().text());
   std::ofstream file;
   std::ostream* out = quiet ? nullptr : &std::cout;

@@ -8,31 +8,41 @@
 #include <string_view>
 
 #include "lcmtypes/codec.h"
+#include "lcmtypes/event_codec.h"
 
 namespace anchord {
 namespace {
 
-/// Remembers what was applied, to tell a frame sent again from one out of order.
+/// Remembers what was applied, to tell what is sent again from what is out of order.
 class Applied {
  public:
-  /// True if this very frame has been applied.
-  bool has(const Frame& frame) const {
-    const auto it = digests_.find(key(frame));
-    return it != digests_.end() && it->second == digest(frame);
+  /// True if this very frame or event has been applied.
+  bool has(const Input& input) const {
+    const auto [first, last] = digests_.equal_range(key(input));
+    return std::any_of(first, last, [d = digest(input)](const auto& it) { return it.second == d; });
   }
-  void add(const Frame& frame) { digests_[key(frame)] = digest(frame); }
+  void add(const Input& input) { digests_.emplace(key(input), digest(input)); }
 
  private:
-  static std::string key(const Frame& frame) {
+  static std::string key(const Input& input) {
+    if (const auto* event = std::get_if<Event>(&input)) return std::to_string(event->utime);
+    const Frame& frame = std::get<Frame>(input);
     return frame.robot + '\0' + frame.sensor + '\0' + std::to_string(frame.utime);
   }
-  static std::size_t digest(const Frame& frame) {
-    const auto bytes = canonical_bytes(frame);
+  static std::size_t digest(const Input& input) {
+    const auto bytes = std::visit([](const auto& one) { return canonical_bytes(one); }, input);
     return std::hash<std::string_view>()(
         {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
-  std::unordered_map<std::string, std::size_t> digests_;
+  std::unordered_multimap<std::string, std::size_t> digests_;
 };
+
+Status apply(World& world, const Input& input) {
+  if (const auto* frame = std::get_if<Frame>(&input)) return world.apply(*frame);
+  const auto number = world.apply(std::get<Event>(input));
+  if (!number) return number.error();
+  return Done{};
+}
 
 double quantile(std::vector<double> sorted, double q) {
   if (sorted.empty()) return 0;
@@ -49,6 +59,7 @@ Json ReplayStatistics::json() const {
   const double sum = std::accumulate(update_ms.begin(), update_ms.end(), 0.0);
   return {{"frames", frames},
           {"detections", detections},
+          {"events", events},
           {"update_ms",
            {{"mean", update_ms.empty() ? 0 : sum / static_cast<double>(update_ms.size())},
             {"median", quantile(update_ms, 0.5)},
@@ -66,17 +77,22 @@ Result<ReplayStatistics> replay(World& world, FrameSource& source, std::ostream*
     return Error{error.code, "", source.position() + ": " + error.text()};
   };
   while (true) {
-    auto frame = source.next();
-    if (!frame) return refused(frame.error());
-    if (!*frame) break;
-    if (applied.has(**frame)) continue;
+    auto next = source.next();
+    if (!next) return refused(next.error());
+    if (!*next) break;
+    const Input& input = **next;
+    if (applied.has(input)) continue;
     const double before = stopwatch();
-    if (Status done = world.apply(**frame); !done) return refused(done.error());
+    if (Status done = apply(world, input); !done) return refused(done.error());
     const double elapsed = stopwatch() - before;
-    applied.add(**frame);
-    ++statistics.frames;
-    statistics.detections += (**frame).detections.size();
-    statistics.update_ms.push_back(elapsed * 1e3);
+    applied.add(input);
+    if (const auto* frame = std::get_if<Frame>(&input)) {
+      ++statistics.frames;
+      statistics.detections += frame->detections.size();
+      statistics.update_ms.push_back(elapsed * 1e3);
+    } else {
+      ++statistics.events;
+    }
     if (!output) continue;
     WorldLineOptions line = options.line;
     if (options.timing) line.elapsed_us = elapsed * 1e6;

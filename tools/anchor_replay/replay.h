@@ -20,17 +20,17 @@ struct ReplayOptions {
 
 /// What a replay did, for STATS.json.
 struct ReplayStatistics {
-  std::size_t frames = 0, detections = 0;
+  std::size_t frames = 0, detections = 0, events = 0;
   std::vector<double> update_ms;  ///< per applied frame
   std::size_t objects = 0;        ///< in the last best world
 
-  /// {"frames", "detections", "update_ms": {"mean", "median", "p99", "max"}, "peak_rss_mb",
-  /// "objects"}
+  /// {"frames", "detections", "events", "update_ms": {"mean", "median", "p99", "max"},
+  /// "peak_rss_mb", "objects"}
   Json json() const;
 };
 
-/// Folds all frames of a source and writes a line after each that was applied. A frame sent again
-/// is passed over. Stops at a refused frame with its position.
+/// Folds all frames and events of a source and writes a line after each that was applied. One sent
+/// again is passed over. Stops at a refused one with its position.
 Result<ReplayStatistics> replay(World& world, FrameSource& source, std::ostream* output,
                                 const ReplayOptions& options, const Stopwatch& stopwatch);
 
