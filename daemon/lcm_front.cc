@@ -13,7 +13,8 @@
 namespace anchord {
 namespace {
 
-constexpr std::size_t kWorldsWaiting = 256, kRefusalsWaiting = 256, kQuestionsWaiting = 64;
+constexpr std::size_t kWorldsWaiting = 256, kRefusalsWaiting = 256, kQuestionsWaiting = 64,
+                      kTriggersWaiting = 64;
 
 Utime now() {
   return std::chrono::duration_cast<std::chrono::microseconds>(
@@ -28,7 +29,8 @@ LcmFront::LcmFront(std::unique_ptr<LcmBus> bus, Statistics& statistics)
       statistics_(statistics),
       publisher_(kWorldsWaiting),
       refusals_(kRefusalsWaiting),
-      questions_(kQuestionsWaiting) {}
+      questions_(kQuestionsWaiting),
+      triggers_(kTriggersWaiting) {}
 
 Status LcmFront::start(Journal& journal, Verifications& verifications, const Robots& robots,
                        Answerer answerer) {
@@ -52,6 +54,7 @@ Status LcmFront::start(Journal& journal, Verifications& verifications, const Rob
 void LcmFront::stop() {
   bus_->stop();
   questions_.stop();
+  triggers_.stop();
 }
 
 void LcmFront::receive_frame(std::span<const std::uint8_t> bytes, Journal& journal) {

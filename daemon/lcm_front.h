@@ -57,9 +57,10 @@ class LcmFront {
 
   std::unique_ptr<LcmBus> bus_;
   Statistics& statistics_;
-  SequenceGaps gaps_;                        // of the bus' thread
-  std::int64_t worlds_ = 0;                  // of the thread that calls publish_world()
-  Worker publisher_, refusals_, questions_;  // end before the bus does
+  SequenceGaps gaps_;        // of the bus' thread
+  std::int64_t worlds_ = 0;  // of the thread that calls publish_world()
+  // They end before the bus does. What takes long must not keep frames from being received.
+  Worker publisher_, refusals_, questions_, triggers_;
 };
 
 }  // namespace anchord

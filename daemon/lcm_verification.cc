@@ -26,15 +26,19 @@ void LcmFront::receive_event(std::span<const std::uint8_t> bytes, Journal& journ
 }
 
 void LcmFront::receive_trigger(std::span<const std::uint8_t> bytes, Verifications& verifications) {
-  const auto message = decode_trigger(bytes);
+  auto message = decode_trigger(bytes);
   if (!message) return refuse(kTriggerChannel, message.error());
   const auto done = [this](const Result<std::optional<Task>>& task) {
     if (!task) refuse(kTriggerChannel, task.error());
   };
-  if (message->cancel)
-    verifications.cancel(message->task, done);
-  else
-    verifications.trigger(message->trigger, done);
+  // Which object is meant may take a while to find out.
+  const bool taken = triggers_.post([&verifications, done, asked = std::move(*message)] {
+    if (asked.cancel)
+      verifications.cancel(asked.task, done);
+    else
+      verifications.trigger(asked.trigger, done);
+  });
+  if (!taken) refuse(kTriggerChannel, {ErrorCode::kUnavailable, "", "too many triggers wait"});
 }
 
 void LcmFront::receive_result(std::span<const std::uint8_t> bytes, Verifications& verifications) {

@@ -98,7 +98,8 @@ std::optional<Task> Coordinator::own_choice(const Reading& reading, const RobotP
   std::vector<Subject> subjects;
   std::vector<const ObjectBelief*> objects;
   for (const ObjectBelief& object : reading.objects()) {
-    if (object.p < kLeastExistence) continue;
+    // What a robot holds need not be looked for.
+    if (object.p < kLeastExistence || object.anchor->holder) continue;
     subjects.push_back(subject_of(object, *background_));
     subjects.back().target =
         !taken.contains(subjects.back().id) && !aside_.contains(subjects.back().id);

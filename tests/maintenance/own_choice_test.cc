@@ -59,6 +59,17 @@ TEST_P(OwnChoice, TriggersComeFirst) {
   EXPECT_TRUE(issued[0].triggered);
 }
 
+TEST_P(OwnChoice, WhatARobotHoldsIsNotLookedFor) {
+  Event event;
+  event.kind = Event::Kind::kGrasped;
+  event.utime = kStart;
+  event.object = "cup-1";
+  ASSERT_TRUE(world.apply(event).ok());
+  const auto issued = next(60);
+  ASSERT_EQ(issued.size(), 1u);
+  EXPECT_EQ(issued[0].object, "cup-2");
+}
+
 TEST_P(OwnChoice, WhatIsOccludedIsLeftAloneForAWhile) {
   const auto first = next(60);
   ASSERT_EQ(first.size(), 1u);
