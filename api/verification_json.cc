@@ -158,7 +158,7 @@ Json to_json(const Task& task) {
   for (const AttributeReport& report : task.appearance)
     out["appearance"][report.name] = attribute_json(report);
   if (task.extent != std::array<double, 3>{}) out["extent"] = task.extent;
-  if (task.state != Task::State::kQueued && task.issued != 0) {
+  if (task.viewpoint) {  // else nobody knows where the robot is
     out["gain"] = task.gain_nat;
     out["cost"] = task.cost;
     out["utility"] = task.utility;

@@ -54,13 +54,8 @@ LiveRobot::LiveRobot() {
   auto bus = LcmBus::open(kLcmUrl);
   if (!bus) fail(bus.error().text());
   bus_ = std::move(*bus);
-  auto heard =
+  const auto heard =
       bus_->subscribe(kWorldChannel, [this](std::span<const std::uint8_t> bytes) { hear(bytes); });
-  if (heard)
-    heard = bus_->subscribe(kTaskChannel, [this](std::span<const std::uint8_t>) {
-      const std::lock_guard lock(mutex_);
-      ++tasks_;
-    });
   if (!heard) fail(heard.error().text());
   bus_->start();
 }

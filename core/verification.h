@@ -21,7 +21,7 @@ struct Trigger {
   std::string sensor;    ///< which sensor; empty: the best
   double timeout_s = 0;  ///< expires after it; 0: the configured time
   bool alone = false;    ///< true: a task of its own, even if one for this object waits
-  std::int64_t tag = 0;  ///< the planner's own number, given back in the task
+  std::int64_t tag = 0;  ///< the planner's own number, given back in the task; 0: none
   bool operator==(const Trigger&) const = default;
 };
 

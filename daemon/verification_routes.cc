@@ -84,6 +84,9 @@ void receive_event(const HttpRequest& request, const HttpReply& reply, Journal& 
 void receive_verification(const HttpRequest& request, const HttpReply& reply,
                           Verifications& verifications) {
   if (request.target.path == kRoot) {
+    if (request.method != "POST")
+      return reply(http_error(405, "method_not_allowed",
+                              "name the task to cancel: DELETE /v1/verifications/{id}"));
     const auto trigger = parse_trigger(request.body);
     if (!trigger) return reply(http_error(trigger.error()));
     return verifications.trigger(*trigger, answer_with(reply, 201));

@@ -167,7 +167,7 @@ void Verifications::trigger(const Trigger& trigger, TaskDone done) {
       return done(receipt.error());
     }
     const Task task = *coordinator_.find(id);
-    if (task.state == Task::State::kQueued) publish_(task, now());
+    if (!task.ended_already()) publish_(task, now());
     woken_ = true;
     locked.unlock();
     wake_.notify_one();

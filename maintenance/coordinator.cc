@@ -48,7 +48,7 @@ Result<std::optional<Task>> Coordinator::add(const Trigger& trigger, const std::
   const double timeout = trigger.timeout_s > 0 ? trigger.timeout_s : settings.timeout;
   const Utime deadline = now + from_seconds(timeout);
   if (Task* task = to_join(trigger, object, now)) {
-    task->tags.push_back(trigger.tag);
+    if (trigger.tag != 0) task->tags.push_back(trigger.tag);
     task->deadline = std::max(task->deadline, deadline);
     return std::optional<Task>(*task);
   }
@@ -58,7 +58,7 @@ Result<std::optional<Task>> Coordinator::add(const Trigger& trigger, const std::
   Task task;
   task.id = ++last_id_;
   task.triggered = true;
-  task.tags = {trigger.tag};
+  if (trigger.tag != 0) task.tags = {trigger.tag};
   task.action = trigger.action;
   task.object = object;
   task.object_class = object_class;

@@ -44,11 +44,21 @@ void CannedServer::serve() {
       if (size <= 0) break;
       request.append(bytes, static_cast<std::size_t>(size));
     }
-    if (request.rfind("GET ", 0) != 0) continue;
-    const std::string target = request.substr(4, request.find(' ', 4) - 4);
+    const std::size_t head = request.find("\r\n\r\n");
+    if (head == std::string::npos) continue;
+    const std::size_t length = request.find("Content-Length: ");
+    const std::size_t size = length < head ? std::stoul(request.substr(length + 16)) : 0;
+    while (request.size() < head + 4 + size) {
+      const ssize_t more = ::recv(client, bytes, sizeof bytes, 0);
+      if (more <= 0) break;
+      request.append(bytes, static_cast<std::size_t>(more));
+    }
+    std::string target = request.substr(0, request.find(' ', request.find(' ') + 1));
+    if (target.rfind("GET ", 0) == 0) target.erase(0, 4);
     {
       std::lock_guard lock(mutex_);
-      asked_.push_back(target);
+      const std::string body = request.substr(head + 4);
+      asked_.push_back(target + (body.empty() ? "" : " " + body));
     }
     const auto found = answers_.find(target);
     const std::string answer =

@@ -9,11 +9,12 @@
 
 namespace anchord {
 
-/// A TCP server on a port of its own at 127.0.0.1 that answers GETs with prepared bytes, one
+/// A TCP server on a port of its own at 127.0.0.1 that answers requests with prepared bytes, one
 /// connection after the other.
 class CannedServer {
  public:
-  /// `answers`: for each target the whole response. What is not in it is answered with 404.
+  /// `answers`: for each target the whole response; those to other methods than GET under
+  /// "POST /v1/events". What is not in it is answered with 404.
   explicit CannedServer(std::map<std::string, std::string> answers);
   ~CannedServer();
   CannedServer(const CannedServer&) = delete;
@@ -21,7 +22,8 @@ class CannedServer {
 
   /// "127.0.0.1:PORT".
   std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
-  /// The targets that were asked for.
+  /// The targets that were asked for, with the method unless that is GET, and with the body if
+  /// there is one: "POST /v1/events {..}".
   std::vector<std::string> asked() const;
 
  private:

@@ -1,39 +1,16 @@
 // The program itself, against a server with prepared answers.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 
 #include "tests/anchorctl/canned_server.h"
-#include "tests/anchorctl/utc.h"
+#include "tests/anchorctl/run.h"
 
 namespace anchord {
 namespace {
-
-struct Outcome {
-  int status = -1;
-  std::string output;
-};
-
-/// Runs anchorctl by a shell; `arguments` may redirect.
-Outcome run(const std::string& arguments, const std::string& environment = "") {
-  use_utc();
-  const std::string command = environment + " '" ANCHORCTL "' " + arguments;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) return {};
-  Outcome outcome;
-  char bytes[4096];
-  while (const std::size_t size = std::fread(bytes, 1, sizeof bytes, pipe)) {
-    outcome.output.append(bytes, size);
-  }
-  const int ended = pclose(pipe);
-  outcome.status = WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
-  return outcome;
-}
 
 std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -105,9 +82,33 @@ TEST(Program, OneLineAboutAnAnswerThatIsNone) {
 }
 
 TEST(Program, WrongCalls) {
-  for (const char* arguments :
-       {"", "fly", "where a b", "where --color", "status cup", "count --server nowhere:x",
-        "watch --interval 0", "watch cup-1", "watch --for -1"}) {
+  for (const char* arguments : {"",
+                                "fly",
+                                "where a b",
+                                "where --color",
+                                "status cup",
+                                "count --server nowhere:x",
+                                "watch --interval 0",
+                                "watch cup-1",
+                                "watch --for -1",
+                                "verify --sensor eye",
+                                "verify --cancel 0",
+                                "verify --cancel 1 cup",
+                                "verify --cancel 1 --wait",
+                                "verify cup --all",
+                                "verify cup-1 color=blue",
+                                "verify cup --timeout -1",
+                                "name cup-1",
+                                "join cup-1",
+                                "drop",
+                                "undo x",
+                                "undo 0",
+                                "event lost cup-1",
+                                "event grasped",
+                                "event removed cup-1 --place sink",
+                                "event grasped cup-1 --at 1 2",
+                                "event placed cup-1 --at 1",
+                                "event placed cup-1 --at 1 2 --place sink"}) {
     const auto outcome = run(std::string(arguments) + " 2>&1");
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_EQ(lines(outcome.output), 1u) << outcome.output;

@@ -71,6 +71,26 @@ TEST_F(Text, Objects) {
             "newest frame 2023-11-14 22:13:20 UTC\n");
 }
 
+TEST_F(Text, ObjectsThatPeopleNameAndRobotsHold) {
+  const Json held = {{"id", "cup-1"}, {"p", 0.9}, {"place", "kitchen"}, {"held_by", "amigo"}};
+  Json named = held;
+  named["alias"] = "my mug";
+  named["held_by"] = "";  // the only robot
+  EXPECT_EQ(objects_text(Json{{"objects", {held, named}}}, {}),
+            "OBJECT          P     CLASS  PLACE                       POSITION [m]  LAST SEEN  "
+            "ATTRIBUTES\n"
+            "cup-1           0.90  -      kitchen, held by amigo      -             -          -\n"
+            "cup-1 (my mug)  0.90  -      kitchen, held by the robot  -             -          -\n"
+            "newest frame -\n");
+  EXPECT_EQ(objects_text(named, {}),
+            "object     cup-1\n"
+            "called     my mug\n"
+            "exists     0.90\n"
+            "place      kitchen, held by the robot\n"
+            "last seen  -\n"
+            "newest frame -\n");
+}
+
 TEST_F(Text, OneObject) {
   const Json answer = Json::parse(std::string(R"({"utime": 1700000060000000, )") + kCup + R"(,
     "extent": [0.08, 0.08, 0.1],
@@ -147,6 +167,7 @@ TEST_F(Text, Status) {
     "log": {"directory": "anchord-data", "frames": 1200, "bytes": 1234567},
     "lcm": {"url": "udpm://239.255.76.67:7667?ttl=0", "frames": 1200, "refused": 0,
             "published": 1199},
+    "verifications": {"queued": 2, "issued": 1},
     "http": {"address": "127.0.0.1:7780", "connections": 2, "requests": 55, "refused": 0}})");
   EXPECT_EQ(
       status_text(answer, "robot:7780", {}),
@@ -157,6 +178,7 @@ TEST_F(Text, Status) {
       "belief        5 objects, 7 anchors, 4.93 expected, 12 hypotheses, 3 clusters\n"
       "update        median 0.31 ms, p99 1.2 ms, max 4.1 ms\n"
       "log           anchord-data, 1200 frames, 1.2 MB\n"
+      "tasks         2 queued, 1 issued\n"
       "lcm           udpm://239.255.76.67:7667?ttl=0, 1200 frames, 0 refused, 1199 published\n"
       "http          127.0.0.1:7780, 2 connections, 55 requests, 0 refused\n");
 }

@@ -13,8 +13,9 @@
 
 namespace anchord {
 
-/// The program itself, in a process of its own, with `kScene`, unless said otherwise, and a data directory in `folder`.
-/// On a free port, and on an LCM network that holds nobody else, unless said otherwise.
+/// The program itself, in a process of its own, with `kScene`, unless said otherwise, and a data
+/// directory in `folder`. On a free port, and on an LCM network that holds nobody else, unless said
+/// otherwise.
 class DaemonProcess {
  public:
   struct Options {

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "tools/anchorctl/event_options.h"
 #include "tools/anchorctl/query.h"
+#include "tools/anchorctl/verify_options.h"
 
 namespace anchord {
 namespace {
@@ -22,6 +24,8 @@ struct Given {
   std::optional<unsigned> limit;
   double interval_s = 0.5;
   std::optional<double> for_s;
+  VerifyOptions verify;
+  EventOptions event;
 };
 
 void add_common(CLI::App& app, Given& given) {
@@ -70,15 +74,33 @@ std::variant<Call, int> to_call(const std::string& command, const Given& given,
   auto server = parse_server(address);
   if (!server) return wrong(server.error().text());
 
-  const std::string resource = command == "watch" ? "objects" : command;
-  return Call{command,    *std::move(server), make_target(resource, *std::move(parameters)),
-              given.json, given.interval_s,   given.for_s};
+  Call call;
+  call.command = is_event_command(command) ? "event" : command;
+  call.server = *std::move(server);
+  call.json = given.json;
+  call.interval_s = given.interval_s;
+  call.for_s = given.for_s;
+  if (command == "verify") {
+    auto asked = verify_call(given.verify, *parameters);
+    if (!asked) return wrong(asked.error().text());
+    call.asked = *std::move(asked);
+    call.wait = given.verify.wait;
+    call.all = given.verify.all;
+  } else if (call.command == "event") {
+    auto event = event_body(command, given.event);
+    if (!event) return wrong(event.error().text());
+    call.event = *std::move(event);
+  } else {
+    const std::string resource = command == "watch" ? "objects" : command;
+    call.asked.target = make_target(resource, *std::move(parameters));
+  }
+  return call;
 }
 
 }  // namespace
 
 std::variant<Call, int> parse_command_line(int argc, const char* const* argv) {
-  CLI::App app{"Asks anchord what it believes.", "anchorctl"};
+  CLI::App app{"Asks anchord what it believes, and tells it what it cannot see.", "anchorctl"};
   app.footer("For example: anchorctl where cup color=blue size=small\n");
   Given given;
   add_common(app, given);
@@ -97,6 +119,10 @@ std::variant<Call, int> parse_command_line(int argc, const char* const* argv) {
       ->capture_default_str();
   watching.add_option("--for", given.for_s, "stop after so many seconds")
       ->check(CLI::Range(0.0, 1e9));
+  add_options(add_command(app, "verify", "the verification tasks; with an object: look at it",
+                          "[OBJECT|CLASS]", given),
+              given.verify);
+  add_event_commands(app, given.event, [&](CLI::App& command) { add_common(command, given); });
   add_command(app, "status", "how the daemon is", "", given);
   try {
     app.parse(argc, argv);

@@ -4,6 +4,7 @@
 #include <string>
 #include <variant>
 
+#include "tools/anchorctl/fields.h"
 #include "tools/anchorctl/http_client.h"
 
 namespace anchord {
@@ -13,10 +14,14 @@ inline constexpr int kFailed = 1, kWrongCall = 2;
 
 /// One call of the program.
 struct Call {
-  std::string command;  ///< where, objects, count, hypotheses, watch, status
+  /// where, objects, count, hypotheses, watch, status, verify; event for all that tell one.
+  std::string command;
   ServerAddress server;
-  std::string target;  ///< what is asked of the daemon
-  bool json = false;   ///< its answer as it came
+  HttpCall asked;     ///< of the daemon
+  Json event;         ///< event: what is told, without its utime
+  bool json = false;  ///< the daemon's answer as it came
+  bool wait = false;  ///< verify: until the task has ended
+  bool all = false;   ///< verify: those that have ended, too
   double interval_s = 0.5;
   std::optional<double> for_s;
 };

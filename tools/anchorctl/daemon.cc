@@ -28,9 +28,9 @@ Result<Answer> read_answer(HttpAnswer answer, const ServerAddress& server) {
   return Answer{std::move(answer.body), std::move(json)};
 }
 
-Result<Answer> ask(const ServerAddress& server, const std::string& target,
+Result<Answer> ask(const ServerAddress& server, const HttpCall& request,
                    const std::function<bool()>& stopped) {
-  auto answer = http_get(server, target, kPatience, stopped);
+  auto answer = http_exchange(server, request, kPatience, stopped);
   if (!answer) return answer.error();
   return read_answer(*std::move(answer), server);
 }

@@ -19,8 +19,8 @@ struct Answer {
 /// where trying again may help (5xx, 408, 429), else kUnknown (404) or kInvalid.
 Result<Answer> read_answer(HttpAnswer answer, const ServerAddress& server);
 
-/// GET and read_answer(). `stopped` as in http_get().
-Result<Answer> ask(const ServerAddress& server, const std::string& target,
+/// http_exchange() and read_answer(). `stopped` as there.
+Result<Answer> ask(const ServerAddress& server, const HttpCall& request,
                    const std::function<bool()>& stopped);
 
 }  // namespace anchord

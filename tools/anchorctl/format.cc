@@ -69,13 +69,17 @@ std::string date_and_time(std::optional<Utime> utime) {
   return time ? written(*time, "%Y-%m-%d %H:%M:%S %Z") : "-";
 }
 
-std::string seen(std::optional<Utime> utime, std::optional<Utime> newest) {
+std::string time_near(std::optional<Utime> utime, std::optional<Utime> newest) {
   const auto time = utime ? local_time(*utime) : std::nullopt;
   if (!time) return "-";
   const auto last = newest ? local_time(*newest) : std::nullopt;
   const bool same_day = last && last->tm_yday == time->tm_yday && last->tm_year == time->tm_year;
-  const std::string when = written(*time, same_day ? "%H:%M:%S" : "%Y-%m-%d %H:%M:%S");
-  if (!newest) return when;
+  return written(*time, same_day ? "%H:%M:%S" : "%Y-%m-%d %H:%M:%S");
+}
+
+std::string seen(std::optional<Utime> utime, std::optional<Utime> newest) {
+  const std::string when = time_near(utime, newest);
+  if (!newest || when == "-") return when;
   const double age_s = seconds_between(*utime, *newest);
   if (age_s == 0) return when + " (now)";
   const std::string span = age_s < 0 ? "in " + duration(-age_s) : duration(age_s) + " ago";

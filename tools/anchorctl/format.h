@@ -26,6 +26,9 @@ std::string bytes(double count);
 /// Local date and time to the second, with the time zone: "2023-11-14 22:13:20 UTC".
 std::string date_and_time(std::optional<Utime> utime);
 
+/// Local time: "22:13:20"; with the date unless that is the newest frame's.
+std::string time_near(std::optional<Utime> utime, std::optional<Utime> newest);
+
 /// When something was last seen: local time, and how long before the newest frame; with the date
 /// unless that is the newest frame's: "22:13:20 (3.2 s ago)", "22:13:20 (now)".
 std::string seen(std::optional<Utime> utime, std::optional<Utime> newest);

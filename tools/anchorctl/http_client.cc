@@ -31,12 +31,16 @@ Error nobody(const ServerAddress& server, const std::string& why) {
 /// One request: the steps follow each other on `io`, which the caller runs.
 class Exchange {
  public:
-  Exchange(asio::io_context& io, const ServerAddress& server, const std::string& target)
-      : stream_(io), server_(server), request_(http::verb::get, target, 11) {
+  Exchange(asio::io_context& io, const ServerAddress& server, const HttpCall& request)
+      : stream_(io),
+        server_(server),
+        request_(http::string_to_verb(request.method), request.target, 11, request.body) {
     request_.set(http::field::host, server.text());
     request_.set(http::field::user_agent, "anchorctl");
     request_.set(http::field::accept, "application/json");
     request_.set(http::field::connection, "close");
+    if (!request.body.empty()) request_.set(http::field::content_type, "application/json");
+    request_.prepare_payload();
     parser_.body_limit(kLargestBody);
   }
 
@@ -66,7 +70,7 @@ class Exchange {
 
   beast::tcp_stream stream_;
   const ServerAddress& server_;
-  http::request<http::empty_body> request_;
+  http::request<http::string_body> request_;
   beast::flat_buffer buffer_;
   http::response_parser<http::string_body> parser_;
   Result<HttpAnswer> outcome_ = unavailable(server_, "given up");
@@ -105,14 +109,14 @@ Result<ServerAddress> parse_server(std::string text) {
   return server;
 }
 
-Result<HttpAnswer> http_get(const ServerAddress& server, const std::string& target,
-                            milliseconds patience, const std::function<bool()>& stopped) {
+Result<HttpAnswer> http_exchange(const ServerAddress& server, const HttpCall& request,
+                                 milliseconds patience, const std::function<bool()>& stopped) {
   try {
     asio::io_context io;
     beast::error_code error;
     const auto ends = asio::ip::tcp::resolver(io).resolve(server.host, server.port, error);
     if (error) return nobody(server, error.message());
-    Exchange exchange(io, server, target);
+    Exchange exchange(io, server, request);
     exchange.start(ends, patience);
     while (!exchange.ended() && !stopped() && !io.stopped()) io.run_for(kSlice);
     return std::move(exchange).outcome();

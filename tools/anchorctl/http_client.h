@@ -24,11 +24,18 @@ struct HttpAnswer {
   std::string body;
 };
 
-/// GET `target` from `server`, over a connection of its own. `stopped` is asked many times a
+/// What is asked of a server.
+struct HttpCall {
+  std::string method = "GET";  ///< or POST, DELETE
+  std::string target;
+  std::string body;  ///< JSON, or empty
+};
+
+/// Sends `request` to `server`, over a connection of its own. `stopped` is asked many times a
 /// second; once it says true the request is given up. Errors (kUnavailable): nobody listens there,
 /// no whole answer came within `patience`, or what came is no HTTP. Throws nothing.
-Result<HttpAnswer> http_get(const ServerAddress& server, const std::string& target,
-                            std::chrono::milliseconds patience,
-                            const std::function<bool()>& stopped);
+Result<HttpAnswer> http_exchange(const ServerAddress& server, const HttpCall& request,
+                                 std::chrono::milliseconds patience,
+                                 const std::function<bool()>& stopped);
 
 }  // namespace anchord

@@ -25,6 +25,24 @@ std::string other_attributes(const Json& object) {
   return written.empty() ? "-" : written;
 }
 
+/// "cup-1", or with what people call it: "cup-1 (my mug)".
+std::string name_of(const Json& object) {
+  const std::string alias = text(object, "alias", "");
+  return text(object, "id") + (alias.empty() ? "" : " (" + alias + ")");
+}
+
+/// "held by amigo"; nothing if no robot holds it. The only robot may have no name.
+std::string holder_of(const Json& object) {
+  if (!member(object, "held_by")) return "";
+  const std::string robot = text(object, "held_by", "");
+  return "held by " + (robot.empty() ? "the robot" : robot);
+}
+
+std::string place_of(const Json& object) {
+  const std::string holder = holder_of(object);
+  return text(object, "place") + (holder.empty() ? "" : ", " + holder);
+}
+
 std::string list_text(const Json& answer, const Style& style) {
   const auto newest = utime(answer, "utime");
   Table table({{"OBJECT"},
@@ -36,7 +54,7 @@ std::string list_text(const Json& answer, const Style& style) {
                {"ATTRIBUTES", true}});
   for (const Json& object : items(answer, "objects")) {
     const auto p = number(object, "p");
-    table.add({text(object, "id"), probability(p), class_of(object), text(object, "place"),
+    table.add({name_of(object), probability(p), class_of(object), place_of(object),
                position(numbers(object, "position"), numbers(object, "covariance")),
                seen(utime(object, "last_seen"), newest), other_attributes(object)},
               p.value_or(1) < 0.5);
@@ -91,6 +109,7 @@ std::string alternatives_text(const Json& alternatives, const Style& style) {
 std::string one_text(const Json& answer, const Style& style) {
   Table table({{""}, {"", true}});
   table.add({"object", text(answer, "id")});
+  if (member(answer, "alias")) table.add({"called", text(answer, "alias")});
   const bool known = member(answer, "in_best") != nullptr;
   const std::string best = flag(answer, "in_best") ? "in the best world" : "not in the best world";
   table.add({"exists", probability(number(answer, "p")) + (known ? ", " + best : "")});
@@ -99,7 +118,7 @@ std::string one_text(const Json& answer, const Style& style) {
       table.add({printable(name), attribute(value)});
     }
   }
-  table.add({"place", text(answer, "place")});
+  table.add({"place", place_of(answer)});
   add_motion(answer, table);
   table.add({"last seen", seen(utime(answer, "last_seen"), utime(answer, "utime"))});
   return table.text(style) + models_text(items(answer, "models"), style) +

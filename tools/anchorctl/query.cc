@@ -68,12 +68,14 @@ std::string make_target(const std::string& command, Parameters parameters) {
     target += "/" + percent_encoded(*object);
     std::erase_if(parameters, [](const auto& parameter) { return parameter.first == "object"; });
   }
-  char separator = '?';
-  for (const auto& [name, value] : parameters) {
-    target += separator + percent_encoded(name) + "=" + percent_encoded(value);
-    separator = '&';
-  }
-  return target;
+  return target + (parameters.empty() ? "" : "?" + make_query(parameters));
+}
+
+std::string make_query(const Parameters& parameters) {
+  std::string query;
+  for (const auto& [name, value] : parameters)
+    query += (query.empty() ? "" : "&") + percent_encoded(name) + "=" + percent_encoded(value);
+  return query;
 }
 
 std::string percent_encoded(const std::string& text) {

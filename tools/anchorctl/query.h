@@ -24,6 +24,9 @@ const std::string* find_parameter(const Parameters& parameters, const std::strin
 /// object's id is part of the path: `/v1/objects/cup-1`.
 std::string make_target(const std::string& command, Parameters parameters);
 
+/// `class=cup&color=light%20blue`.
+std::string make_query(const Parameters& parameters);
+
 /// All but letters, digits and "-._~" as %XX.
 std::string percent_encoded(const std::string& text);
 

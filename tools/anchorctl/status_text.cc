@@ -60,6 +60,7 @@ std::string status_text(const Json& answer, const std::string& server, const Sty
   add("belief", belief(answer));
   add("update", update_times(items(answer, "update_us")));
   add("log", stored(items(answer, "log")));
+  add("tasks", counters(items(answer, "verifications"), {"queued", "issued"}));
   const Json& lcm = items(answer, "lcm");
   add("lcm", after(text(lcm, "url", ""), counters(lcm, {"frames", "refused", "published"})));
   const Json& http = items(answer, "http");

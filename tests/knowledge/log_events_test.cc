@@ -1,0 +1,88 @@
+// What stands in the log beside frames: events and tasks; and how older logs come to have room for
+// them.
+
+#include <map>
+#include <span>
+
+#include "tests/knowledge/frame_log_fixture.h"
+
+namespace anchord {
+namespace {
+
+TEST_F(FrameLogTest, EventsStandAmongTheFramesAndMayShareATime) {
+  const LoggedFrame frame = frame_number(1);
+  LoggedFrame event = frame;
+  event.kind = LoggedFrame::Kind::kEvent;
+  event.sequence = 2;
+  LoggedFrame other = event;
+  other.sequence = 3;
+  other.bytes.push_back(1);
+  {
+    auto log = open();
+    for (const LoggedFrame& one : {frame, event, other}) ASSERT_TRUE(log->append(one).ok());
+    ASSERT_TRUE(log->commit().ok());
+  }
+  auto log = open();
+  EXPECT_EQ(all(*log), (std::vector<LoggedFrame>{frame, event, other}));
+  EXPECT_TRUE(*log->contains_event(event.utime, event.bytes));
+  EXPECT_TRUE(*log->contains_event(event.utime, other.bytes));
+  EXPECT_FALSE(*log->contains_event(event.utime + 1, event.bytes));
+  // The other event's bytes are no frame's.
+  EXPECT_EQ(*log->contains(frame.robot, frame.sensor, frame.utime, other.bytes),
+            FrameLog::Presence::kDifferent);
+}
+
+TEST_F(FrameLogTest, KeepsTheNewestRecordOfEachTask) {
+  using Tasks = std::map<std::int64_t, std::vector<std::uint8_t>>;
+  const auto tasks = [&](FrameLog& log) {
+    Tasks out;
+    EXPECT_TRUE(log.for_each_task([&](std::int64_t id, std::span<const std::uint8_t> bytes) {
+                     out[id].assign(bytes.begin(), bytes.end());
+                     return true;
+                   })
+                    .ok());
+    return out;
+  };
+  {
+    auto log = open();
+    ASSERT_TRUE(log->put_task(1, {1}).ok());
+    ASSERT_TRUE(log->put_task(2, {2}).ok());
+    ASSERT_TRUE(log->put_task(1, {1, 1}).ok());
+    ASSERT_TRUE(log->commit().ok());
+    ASSERT_TRUE(log->put_task(3, {3}).ok());
+    log->rollback();
+    ASSERT_TRUE(log->put_task(4, {4}).ok());  // not committed
+  }
+  auto log = open();
+  EXPECT_EQ(tasks(*log), (Tasks{{1, {1, 1}}, {2, {2}}}));
+  ASSERT_TRUE(log->put_task(5, {5}).ok());
+  ASSERT_TRUE(log->keep_tasks(4).ok());  // 2 to 5
+  ASSERT_TRUE(log->commit().ok());
+  EXPECT_EQ(tasks(*log), (Tasks{{2, {2}}, {5, {5}}}));
+}
+
+TEST_F(FrameLogTest, BringsVersion1UpToDate) {
+  {
+    auto log = open();
+    ASSERT_TRUE(log->append(frame_number(1)).ok());
+    ASSERT_TRUE(log->commit().ok());
+  }
+  // As the first version made it.
+  tamper(
+      "DROP TABLE tasks; DROP INDEX events_by_time; DROP INDEX frames_by_sensor;"
+      "ALTER TABLE frames DROP COLUMN kind;"
+      "CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime);"
+      "PRAGMA user_version=1");
+  for (int time = 0; time < 2; ++time) {
+    auto log = open();
+    EXPECT_EQ(all(*log), std::vector<LoggedFrame>{frame_number(1)});
+    EXPECT_TRUE(log->put_task(1, {1}).ok());
+    LoggedFrame event = frame_number(1);
+    event.kind = LoggedFrame::Kind::kEvent;
+    event.sequence = 2;
+    EXPECT_TRUE(log->append(event).ok());  // not committed
+  }
+}
+
+}  // namespace
+}  // namespace anchord
