@@ -22,7 +22,12 @@ struct Anchor {
 
   /// The name, or `new-N` before it has one.
   std::string id() const { return name.empty() ? "new-" + std::to_string(birth) : name; }
-  bool is_called(std::string_view text) const { return text == id() || text == alias; }
+  /// Whether people or programs may mean it so: by its id, by that of before it had a name, or by
+  /// its alias.
+  bool is_called(std::string_view text) const {
+    if (text.empty()) return false;
+    return text == name || text == alias || text == "new-" + std::to_string(birth);
+  }
 };
 
 /// An anchor with its leaves: one for each history of associations that is kept.

@@ -5,6 +5,7 @@
 
 #include "api/json_fields.h"
 #include "api/json_text.h"
+#include "lcmtypes/names.h"
 
 namespace anchord {
 namespace {
@@ -113,7 +114,7 @@ class EventReader : public JsonFields {
     if (const Json* polygon = find(json, "polygon")) {
       out.kind = RegionOfInterest::Kind::kPrism;
       const Field points = field.member("polygon");
-      if (!check_array(*polygon, points, kMaxRegions)) return false;
+      if (!check_array(*polygon, points, kMaxPolygonPoints)) return false;
       for (std::size_t i = 0; i < polygon->size(); ++i)
         if (!read((*polygon)[i], points.element(i), out.polygon.emplace_back())) return false;
       const Json* z = find(json, "z");

@@ -26,7 +26,7 @@ inline constexpr char kHttpOrigin[] = "HTTP";
 struct HttpBackend {
   Journal& journal;
   Verifications& verifications;
-  const Robots& robots;
+  Robots& robots;
   const std::atomic<bool>& ready;  ///< until then what needs the belief gets 503
   Statistics& statistics;
   SelfDescription self;

@@ -69,17 +69,17 @@ Status Journal::apply(const LoggedFrame& logged) {
 
 Result<std::vector<Task>> Journal::tasks() {
   std::vector<Task> out;
-  Status good = Done{};
-  const Status read = log_->for_each_task([&](std::int64_t, std::span<const std::uint8_t> bytes) {
-    const auto message = decode_task(bytes);
-    if (message)
-      out.push_back(message->task);
-    else
-      good = message.error();
-    return good.ok();
-  });
+  const Status read =
+      log_->for_each_task([&](std::int64_t id, std::span<const std::uint8_t> bytes) {
+        auto message = decode_task(bytes);
+        if (message)
+          out.push_back(std::move(message->task));
+        else  // the belief does not hang on it
+          spdlog::warn("task {} of the log cannot be read and is left out: {}", id,
+                       message.error().text());
+        return true;
+      });
   if (!read) return read.error();
-  if (!good) return good.error();
   return out;
 }
 
@@ -134,7 +134,7 @@ bool Journal::commit_is_due() const {
 /// All of the submission or none.
 void Journal::take(Submission submission) {
   std::optional<World> before;  // only several can fail half-way
-  if (submission.frames.size() + submission.events.size() > 1) before = world_;
+  if (submission.size() > 1) before = world_;
   std::vector<Folded> folded;
   Receipt receipt;
   for (std::size_t i = 0; i < submission.frames.size(); ++i) {
@@ -152,6 +152,11 @@ void Journal::take(Submission submission) {
     if (const Status done = fold(event, folded, receipt); !done) {
       if (before) world_ = *std::move(before);
       return refuse(submission, nullptr, done.error());
+    }
+  for (const Task& task : submission.tasks)
+    if (const auto readable = decode_task(canonical_bytes(task)); !readable) {
+      if (!folded.empty()) world_ = *std::move(before);
+      return refuse(submission, nullptr, readable.error());
     }
   if (Status logged = append(folded, submission.tasks); !logged) {
     roll_back(logged.error());
@@ -236,7 +241,8 @@ Status Journal::append(const std::vector<Folded>& folded, const std::vector<Task
     if (Status logged = log_->append(frame); !logged) return logged;
   }
   for (const Task& task : tasks)
-    if (Status kept = log_->put_task(task.id, canonical_bytes(task)); !kept) return kept;
+    if (Status kept = log_->put_task(task.id, task.ended_already(), canonical_bytes(task)); !kept)
+      return kept;
   return tasks.empty() ? Status(Done{}) : log_->keep_tasks(kTasks);
 }
 

@@ -14,7 +14,7 @@ namespace anchord {
 namespace {
 
 constexpr std::size_t kWorldsWaiting = 256, kRefusalsWaiting = 256, kQuestionsWaiting = 64,
-                      kTriggersWaiting = 64;
+                      kTriggersWaiting = 64, kTasksWaiting = 4096;
 
 Utime now() {
   return std::chrono::duration_cast<std::chrono::microseconds>(
@@ -30,9 +30,10 @@ LcmFront::LcmFront(std::unique_ptr<LcmBus> bus, Statistics& statistics)
       publisher_(kWorldsWaiting),
       refusals_(kRefusalsWaiting),
       questions_(kQuestionsWaiting),
-      triggers_(kTriggersWaiting) {}
+      triggers_(kTriggersWaiting),
+      tasks_(kTasksWaiting) {}
 
-Status LcmFront::start(Journal& journal, Verifications& verifications, const Robots& robots,
+Status LcmFront::start(Journal& journal, Verifications& verifications, Robots& robots,
                        Answerer answerer) {
   const std::pair<const char*, LcmBus::Handler> handlers[] = {
       {kDetectionsChannel, [this, &journal](auto bytes) { receive_frame(bytes, journal); }},

@@ -28,8 +28,7 @@ class LcmFront {
   LcmFront(const LcmFront&) = delete;
   LcmFront& operator=(const LcmFront&) = delete;
 
-  Status start(Journal& journal, Verifications& verifications, const Robots& robots,
-               Answerer answerer);
+  Status start(Journal& journal, Verifications& verifications, Robots& robots, Answerer answerer);
   /// Receives no more, and answers the questions that wait; the journal may go then.
   void stop();
 
@@ -47,7 +46,7 @@ class LcmFront {
 
  private:
   void receive_frame(std::span<const std::uint8_t> bytes, Journal& journal);
-  void receive_event(std::span<const std::uint8_t> bytes, Journal& journal, const Robots& robots);
+  void receive_event(std::span<const std::uint8_t> bytes, Journal& journal, Robots& robots);
   void receive_trigger(std::span<const std::uint8_t> bytes, Verifications& verifications);
   void receive_result(std::span<const std::uint8_t> bytes, Verifications& verifications);
   void receive_pose(std::span<const std::uint8_t> bytes, Verifications& verifications);
@@ -60,7 +59,7 @@ class LcmFront {
   SequenceGaps gaps_;        // of the bus' thread
   std::int64_t worlds_ = 0;  // of the thread that calls publish_world()
   // They end before the bus does. What takes long must not keep frames from being received.
-  Worker publisher_, refusals_, questions_, triggers_;
+  Worker publisher_, refusals_, questions_, triggers_, tasks_;
 };
 
 }  // namespace anchord

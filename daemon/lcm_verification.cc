@@ -16,7 +16,7 @@ void LcmFront::refuse(const char* channel, const Error& why) {
 }
 
 void LcmFront::receive_event(std::span<const std::uint8_t> bytes, Journal& journal,
-                             const Robots& robots) {
+                             Robots& robots) {
   auto message = decode_event(bytes);
   if (!message) return refuse(kEventChannel, message.error());
   Submission submission{{}, kEventChannel, false, {}};
@@ -42,11 +42,14 @@ void LcmFront::receive_trigger(std::span<const std::uint8_t> bytes, Verification
 }
 
 void LcmFront::receive_result(std::span<const std::uint8_t> bytes, Verifications& verifications) {
-  const auto result = decode_result(bytes);
+  auto result = decode_result(bytes);
   if (!result) return refuse(kResultChannel, result.error());
-  verifications.result(*result, [this](const Result<std::optional<Task>>& task) {
-    if (!task) refuse(kResultChannel, task.error());
+  const bool taken = triggers_.post([this, &verifications, answer = std::move(*result)] {
+    verifications.result(answer, [this](const Result<std::optional<Task>>& task) {
+      if (!task) refuse(kResultChannel, task.error());
+    });
   });
+  if (!taken) refuse(kResultChannel, {ErrorCode::kUnavailable, "", "too many results wait"});
 }
 
 void LcmFront::receive_pose(std::span<const std::uint8_t> bytes, Verifications& verifications) {
@@ -56,7 +59,7 @@ void LcmFront::receive_pose(std::span<const std::uint8_t> bytes, Verifications& 
 }
 
 void LcmFront::publish_task(const Task& task, Utime now) {
-  publisher_.post([this, bytes = encode(TaskMessage{now, task})] { send(kTaskChannel, bytes); });
+  tasks_.post([this, bytes = encode(TaskMessage{now, task})] { send(kTaskChannel, bytes); });
 }
 
 }  // namespace anchord

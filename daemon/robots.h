@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -11,20 +12,30 @@
 
 namespace anchord {
 
-/// Where each robot was last. Safe from any thread.
+/// Where each robot was last. One that has told nothing for a while may be anywhere, or gone: it is
+/// forgotten. Safe from any thread.
 class Robots {
  public:
   /// Robots that are kept; one more is refused.
   static constexpr std::size_t kMost = 64;
 
+  /// How long a pose holds.
+  static constexpr std::chrono::seconds kHolds{10};
+
   /// Refuses a pose that is none (see check_pose()), one of no time, one older than the last.
   Status set(const RobotPose& pose);
-  std::optional<RobotPose> find(const std::string& robot) const;
-  std::vector<RobotPose> all() const;
+  std::optional<RobotPose> find(const std::string& robot);
+  std::vector<RobotPose> all();
 
  private:
-  mutable std::mutex mutex_;
-  std::map<std::string, RobotPose> poses_;
+  struct Told {
+    RobotPose pose;
+    std::chrono::steady_clock::time_point at;
+  };
+  void forget();
+
+  std::mutex mutex_;
+  std::map<std::string, Told> poses_;
 };
 
 }  // namespace anchord

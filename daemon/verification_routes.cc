@@ -58,15 +58,19 @@ Verifications::TaskDone answer_with(HttpReply reply, int status) {
 
 }  // namespace
 
-Event with_robot(Event event, const Robots& robots) {
-  const bool placed = event.kind == Event::Kind::kPlaced && event.place.empty();
-  if ((event.kind != Event::Kind::kGrasped && !placed) || event.position) return event;
+Event with_robot(Event event, Robots& robots) {
+  const bool done_by_robot =
+      event.kind == Event::Kind::kGrasped || event.kind == Event::Kind::kPlaced;
+  if (!done_by_robot) return event;
+  if (event.robot.empty())  // the only one
+    if (const auto all = robots.all(); all.size() == 1) event.robot = all.front().robot;
+  if (event.position || !event.place.empty()) return event;
   if (const auto robot = robots.find(event.robot)) event.position = robot->pose.position;
   return event;
 }
 
 void receive_event(const HttpRequest& request, const HttpReply& reply, Journal& journal,
-                   const Robots& robots) {
+                   Robots& robots) {
   auto event = parse_event(request.body, journal.snapshot().background->dims);
   if (!event) return reply(http_error(event.error()));
   Submission submission{{}, kHttpOrigin, false, {}};

@@ -17,6 +17,10 @@ namespace {
 constexpr std::chrono::milliseconds kPeriod{250};
 /// How far a robot goes before what it holds is put where it is; no more often than that.
 constexpr double kCarriedAlong = 0.1;  // m
+/// How often what is issued is told again: whoever looks may have come later, or missed it.
+constexpr std::chrono::seconds kTellAgain{5};
+/// Acknowledgements that may wait; beyond that the journal's thread waits.
+constexpr std::size_t kAcknowledgements = 4096;
 constexpr char kOrigin[] = "verification";
 
 double distance(const Pose& a, const Pose& b) {
@@ -40,7 +44,8 @@ Verifications::Verifications(Journal& journal, Robots& robots, Publish publish)
       robots_(robots),
       publish_(std::move(publish)),
       coordinator_(journal.snapshot().background),
-      since_(Clock::now()) {}
+      since_(Clock::now()),
+      acknowledgements_(kAcknowledgements) {}
 
 Verifications::~Verifications() { stop(); }
 
@@ -62,6 +67,13 @@ void Verifications::stop() {
   }
   wake_.notify_one();
   if (thread_.joinable()) thread_.join();
+  acknowledgements_.stop();
+}
+
+/// Does what comes of a commit: on another thread, for deciding may take a while and frames must
+/// not wait for it.
+void Verifications::acknowledge(std::function<void()> task) {
+  if (!acknowledgements_.post(task)) task();
 }
 
 /// With mutex_ held. World time never goes back.
@@ -82,6 +94,7 @@ void Verifications::run() {
   std::unique_lock lock(mutex_);
   while (!ending_) {
     decide();
+    tell_again();
     wake_.wait_for(lock, kPeriod, [&] { return ending_ || woken_; });
     woken_ = false;
   }
@@ -101,17 +114,27 @@ void Verifications::decide() {
   if (!changed.empty()) keep(changed);
 }
 
+/// With mutex_ held.
+void Verifications::tell_again() {
+  if (Clock::now() - told_ < kTellAgain) return;
+  told_ = Clock::now();
+  for (const Task& task : coordinator_.tasks())
+    if (task.state == Task::State::kIssued) publish_(task, now());
+}
+
 /// With mutex_ held: hands changed tasks to the log, and publishes them when it has them.
 void Verifications::keep(const std::vector<Task>& tasks) {
   Submission submission{{}, kOrigin, false, {}};
   submission.tasks = tasks;
   submission.done = [this, tasks](const Result<Receipt>& receipt) {
-    std::lock_guard lock(mutex_);
-    for (const Task& task : tasks)
-      if (receipt)
-        publish_(task, now());
-      else
-        unkept_.insert(task.id);
+    acknowledge([this, tasks, kept = receipt.ok()] {
+      std::lock_guard lock(mutex_);
+      for (const Task& task : tasks)
+        if (kept)
+          publish_(task, now());
+        else
+          unkept_.insert(task.id);
+    });
   };
   if (journal_.submit(std::move(submission))) return;
   for (const Task& task : tasks) unkept_.insert(task.id);
@@ -119,6 +142,8 @@ void Verifications::keep(const std::vector<Task>& tasks) {
 
 /// Id and class of the object that a trigger means.
 Result<std::pair<std::string, std::string>> Verifications::meant(const Trigger& trigger) const {
+  if (trigger.object.empty() == trigger.description.empty())
+    return invalid("object", "name the object by its id, or describe it, and not both");
   const auto snapshot = journal_.snapshot();
   Description description;
   if (!trigger.description.empty()) {
@@ -151,30 +176,38 @@ void Verifications::trigger(const Trigger& trigger, TaskDone done) {
   const auto object = meant(trigger);
   if (!object) return done(object.error());
   std::unique_lock lock(mutex_);
+  const std::int64_t last = coordinator_.last_id();
   const auto added = coordinator_.add(trigger, object->first, object->second, now());
   if (!added || !*added) {
     lock.unlock();
     return done(added);
   }
+  const std::int64_t id = (*added)->id;
+  // With mutex_ held. A task that others wait for, too, is theirs still.
+  const auto take_back = [this, id, is_new = id > last] {
+    if (is_new) (void)coordinator_.cancel(id, now());
+    unkept_.insert(id);
+  };
   Submission submission{{}, kOrigin, false, {}};
   submission.tasks = {**added};
-  const std::int64_t id = (*added)->id;
-  submission.done = [this, id, done](const Result<Receipt>& receipt) {
-    std::unique_lock locked(mutex_);
-    if (!receipt) {
-      (void)coordinator_.cancel(id, now());
+  submission.done = [this, id, done, take_back](const Result<Receipt>& receipt) {
+    acknowledge([this, id, done, take_back, receipt] {
+      std::unique_lock locked(mutex_);
+      if (!receipt) {
+        take_back();
+        locked.unlock();
+        return done(receipt.error());
+      }
+      const Task task = *coordinator_.find(id);
+      if (!task.ended_already()) publish_(task, now());
+      woken_ = true;
       locked.unlock();
-      return done(receipt.error());
-    }
-    const Task task = *coordinator_.find(id);
-    if (!task.ended_already()) publish_(task, now());
-    woken_ = true;
-    locked.unlock();
-    wake_.notify_one();
-    done(std::optional<Task>(task));
+      wake_.notify_one();
+      done(std::optional<Task>(task));
+    });
   };
   if (journal_.submit(std::move(submission))) return;
-  (void)coordinator_.cancel(id, now());
+  take_back();
   lock.unlock();
   done(Error{ErrorCode::kUnavailable, "", "too much waits to be written; send this again"});
 }
@@ -194,34 +227,34 @@ void Verifications::cancel(std::int64_t id, TaskDone done) {
 void Verifications::result(const VerificationResult& result, TaskDone done) {
   if (!done) done = [](const Result<std::optional<Task>>&) {};
   std::unique_lock lock(mutex_);
-  auto end = coordinator_.check(result, now());
-  if (end && in_hand_.contains(result.task))
-    end = Error{ErrorCode::kConflict, "task", "has a result that is being written"};
+  const auto end = coordinator_.check(result, now());
   if (!end) {
     lock.unlock();
     return done(end.error());
   }
-  in_hand_.insert(result.task);
+  coordinator_.take_in_hand(result.task);
   Submission submission{{}, kOrigin, false, {}};
   if (end->frame) submission.frames.push_back(*end->frame);
   if (end->event) submission.events.push_back(*end->event);
   submission.tasks = {end->task};
   submission.done = [this, end = *end, done](const Result<Receipt>& receipt) {
-    std::unique_lock locked(mutex_);
-    in_hand_.erase(end.task.id);
-    if (!receipt) {
+    acknowledge([this, end, done, receipt] {
+      std::unique_lock locked(mutex_);
+      if (!receipt) {
+        coordinator_.put_back(end.task.id);
+        locked.unlock();
+        return done(receipt.error());
+      }
+      coordinator_.end(end);
+      publish_(end.task, now());
+      woken_ = true;
       locked.unlock();
-      return done(receipt.error());
-    }
-    coordinator_.end(end);
-    publish_(end.task, now());
-    woken_ = true;
-    locked.unlock();
-    wake_.notify_one();
-    done(std::optional<Task>(end.task));
+      wake_.notify_one();
+      done(std::optional<Task>(end.task));
+    });
   };
   if (journal_.submit(std::move(submission))) return;
-  in_hand_.erase(result.task);
+  coordinator_.put_back(result.task);
   lock.unlock();
   done(Error{ErrorCode::kUnavailable, "", "too much waits to be written; send this again"});
 }
@@ -235,14 +268,13 @@ Status Verifications::pose(const RobotPose& pose) {
 /// What the robot holds goes with it.
 void Verifications::carry(const RobotPose& pose) {
   const auto snapshot = journal_.snapshot();
-  std::lock_guard lock(mutex_);
+  std::lock_guard lock(carrying_);
   if (!holds_anything(*snapshot.belief, pose.robot)) {
     carried_.erase(pose.robot);
     return;
   }
   const auto last = carried_.find(pose.robot);
   if (last != carried_.end() && distance(last->second.pose, pose.pose) < kCarriedAlong) return;
-  carried_[pose.robot] = pose;
   Event event;
   event.kind = Event::Kind::kCarried;
   event.utime = std::max(pose.utime, snapshot.belief->utime);
@@ -250,7 +282,7 @@ void Verifications::carry(const RobotPose& pose) {
   event.position = pose.pose.position;
   Submission submission{{}, kOrigin, false, {}};
   submission.events = {std::move(event)};
-  (void)journal_.submit(std::move(submission));  // the next pose tells it, too
+  if (journal_.submit(std::move(submission))) carried_[pose.robot] = pose;
 }
 
 std::vector<Task> Verifications::tasks() const {

@@ -15,6 +15,7 @@
 #include "core/verification.h"
 #include "daemon/journal.h"
 #include "daemon/robots.h"
+#include "daemon/worker.h"
 #include "maintenance/coordinator.h"
 
 namespace anchord {
@@ -60,6 +61,8 @@ class Verifications {
   void run();
   void decide();
   void keep(const std::vector<Task>& tasks);
+  void acknowledge(std::function<void()> task);
+  void tell_again();
   void carry(const RobotPose& pose);
   Result<std::pair<std::string, std::string>> meant(const Trigger& trigger) const;
 
@@ -67,17 +70,21 @@ class Verifications {
   Robots& robots_;
   Publish publish_;
 
+  std::mutex carrying_;
+  std::map<std::string, RobotPose> carried_;  ///< where what a robot holds was last put; guarded
+
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  Coordinator coordinator_;         // guarded by mutex_, as all below
-  std::set<std::int64_t> in_hand_;  ///< tasks whose result is on its way to the log
-  std::set<std::int64_t> unkept_;   ///< changed tasks that the log could not take yet
-  Utime newest_ = 0;                ///< of the belief, since `since_`
+  Coordinator coordinator_;        // guarded by mutex_, as all below
+  std::set<std::int64_t> unkept_;  ///< changed tasks that the log could not take yet
+  Utime newest_ = 0;               ///< of the belief, since `since_`
   Clock::time_point since_;
   Utime last_now_ = 0;
-  std::map<std::string, RobotPose> carried_;  ///< where what a robot holds was last put
+  Clock::time_point told_;  ///< when issued tasks were last published
   bool woken_ = false, ending_ = false;
   std::thread thread_;
+  /// Takes mutex_ where the journal's thread must not wait for it.
+  Worker acknowledgements_;
 };
 
 }  // namespace anchord

@@ -63,11 +63,11 @@ Result<std::unique_ptr<FrameLog>> FrameLog::open(const std::string& directory,
   auto find_event = Statement::prepare(
       *database, "SELECT 1 FROM frames WHERE utime = ?1 AND kind = 1 AND bytes = ?2");
   if (!find_event) return find_event.error();
-  auto put_task =
-      Statement::prepare(*database, "INSERT OR REPLACE INTO tasks (id, bytes) VALUES (?1, ?2)");
+  auto put_task = Statement::prepare(
+      *database, "INSERT OR REPLACE INTO tasks (id, ended, bytes) VALUES (?1, ?2, ?3)");
   if (!put_task) return put_task.error();
   auto drop_tasks = Statement::prepare(
-      *database, "DELETE FROM tasks WHERE id <= (SELECT max(id) FROM tasks) - ?1");
+      *database, "DELETE FROM tasks WHERE ended = 1 AND id <= (SELECT max(id) FROM tasks) - ?1");
   if (!drop_tasks) return drop_tasks.error();
   auto read_tasks = Statement::prepare(*database, "SELECT id, bytes FROM tasks ORDER BY id");
   if (!read_tasks) return read_tasks.error();
@@ -177,11 +177,14 @@ Result<bool> FrameLog::contains_event(Utime utime, const std::vector<std::uint8_
   return find.bind(1, utime).bind(2, std::span<const std::uint8_t>(bytes)).step();
 }
 
-Status FrameLog::put_task(std::int64_t id, const std::vector<std::uint8_t>& bytes) {
+Status FrameLog::put_task(std::int64_t id, bool ended, const std::vector<std::uint8_t>& bytes) {
   if (Status begun = begin_batch(); !begun) return begun;
   Statement& put = store_->put_task;
   ResetAtEnd reset(put);
-  auto step = put.bind(1, id).bind(2, std::span<const std::uint8_t>(bytes)).step();
+  auto step = put.bind(1, id)
+                  .bind(2, static_cast<std::int64_t>(ended))
+                  .bind(3, std::span<const std::uint8_t>(bytes))
+                  .step();
   if (step) return Done{};
   store_->failed = true;
   return io("cannot keep the task: " + step.error().message);

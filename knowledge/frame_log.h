@@ -83,8 +83,8 @@ class FrameLog {
   Result<bool> contains_event(Utime utime, const std::vector<std::uint8_t>& bytes);
 
   /// Keeps the newest record of a task, in the open batch, or begins one.
-  Status put_task(std::int64_t id, const std::vector<std::uint8_t>& bytes);
-  /// Forgets all but the newest `count` tasks, in the open batch, if there is one.
+  Status put_task(std::int64_t id, bool ended, const std::vector<std::uint8_t>& bytes);
+  /// Forgets the ended ones but for the newest `count` tasks, in the open batch, if there is one.
   Status keep_tasks(std::int64_t count);
   /// The records of all tasks, in order of id, until the callback says false.
   Status for_each_task(

@@ -25,7 +25,7 @@ CREATE TABLE frames (
 ) STRICT;
 CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime) WHERE kind = 0;
 CREATE INDEX events_by_time ON frames (utime) WHERE kind = 1;
-CREATE TABLE tasks (id INTEGER PRIMARY KEY, bytes BLOB NOT NULL) STRICT;
+CREATE TABLE tasks (id INTEGER PRIMARY KEY, ended INTEGER NOT NULL, bytes BLOB NOT NULL) STRICT;
 )";
 
 /// From version 1, which had frames only.
@@ -34,7 +34,7 @@ ALTER TABLE frames ADD COLUMN kind INTEGER NOT NULL DEFAULT 0;
 DROP INDEX frames_by_sensor;
 CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime) WHERE kind = 0;
 CREATE INDEX events_by_time ON frames (utime) WHERE kind = 1;
-CREATE TABLE tasks (id INTEGER PRIMARY KEY, bytes BLOB NOT NULL) STRICT;
+CREATE TABLE tasks (id INTEGER PRIMARY KEY, ended INTEGER NOT NULL, bytes BLOB NOT NULL) STRICT;
 )";
 
 Error io(std::string message) { return {ErrorCode::kIo, "", std::move(message)}; }

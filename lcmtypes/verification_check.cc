@@ -25,7 +25,7 @@ bool walk_region(Walk& walk, const Field& region) {
       !walk.numbers(region.member("covariance"), 9) || !walk.numbers(region.member("radius"), 1)) {
     return false;
   }
-  const std::size_t most_points = kind == region_t::PRISM ? kMaxRegions : 0;
+  const std::size_t most_points = kind == region_t::PRISM ? kMaxPolygonPoints : 0;
   std::size_t points = 0;
   return walk.count(region.member("num_points"), most_points, 2 * kNumberBytes, points) &&
          walk.numbers(region.member("polygon"), 2 * points) && walk.numbers(region.member("z"), 2);

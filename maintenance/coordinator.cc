@@ -76,6 +76,7 @@ Task* Coordinator::to_join(const Trigger& trigger, const std::string& object, Ut
   if (trigger.alone) return nullptr;
   for (auto& [id, task] : active_) {
     if (!task.triggered || task.object != object || task.deadline <= now) continue;
+    if (in_hand_.contains(id)) continue;
     if (task.tags.size() >= kMaxTags) continue;
     const bool robot = trigger.robot.empty() || trigger.robot == task.robot;
     const bool sensor = trigger.sensor.empty() || trigger.sensor == task.wanted_sensor ||
@@ -90,7 +91,10 @@ Result<Task> Coordinator::cancel(std::int64_t id, Utime now) {
     if (find(id)) return conflict(id, "has ended already");
     return unknown(id);
   }
-  return finish(id, Task::State::kCancelled, now, "it was cancelled");
+  if (in_hand_.contains(id)) return conflict(id, "has a result that is being written");
+  Task task = finish(id, Task::State::kCancelled, now, "it was cancelled");
+  if (!task.triggered) leave_aside(task.object, now);
+  return task;
 }
 
 Result<TaskEnd> Coordinator::check(const VerificationResult& result, Utime now) const {
@@ -99,6 +103,8 @@ Result<TaskEnd> Coordinator::check(const VerificationResult& result, Utime now) 
     if (find(result.task)) return conflict(result.task, "has ended already");
     return unknown(result.task);
   }
+  if (in_hand_.contains(result.task))
+    return conflict(result.task, "has a result that is being written");
   TaskEnd end{found->second, {}, {}};
   Task& task = end.task;
   if (task.state == Task::State::kQueued)
@@ -143,6 +149,7 @@ Result<TaskEnd> Coordinator::check(const VerificationResult& result, Utime now) 
 }
 
 void Coordinator::end(const TaskEnd& end) {
+  in_hand_.erase(end.task.id);
   if (active_.contains(end.task.id))
     finish(end.task.id, end.task.state, end.task.ended, end.task.reason);
 }
@@ -150,7 +157,7 @@ void Coordinator::end(const TaskEnd& end) {
 std::vector<Task> Coordinator::expire(Utime now) {
   std::vector<std::int64_t> due;
   for (const auto& [id, task] : active_)
-    if (task.deadline <= now) due.push_back(id);
+    if (task.deadline <= now && !in_hand_.contains(id)) due.push_back(id);
   std::vector<Task> changed;
   for (const std::int64_t id : due) {
     const bool issued = active_.at(id).state == Task::State::kIssued;
@@ -160,15 +167,19 @@ std::vector<Task> Coordinator::expire(Utime now) {
   return changed;
 }
 
+/// Nobody sets out again at once for what cannot be seen or reached now.
+void Coordinator::leave_aside(const std::string& object, Utime now) {
+  aside_[object] = now + from_seconds(site_.settings.timeout);
+}
+
 Task Coordinator::finish(std::int64_t id, Task::State state, Utime now, std::string reason) {
   Task task = std::move(active_.at(id));
   active_.erase(id);
   task.state = state;
   task.ended = now;
   task.reason = std::move(reason);
-  // Nobody sets out again at once for what cannot be seen or reached now.
-  if (!task.triggered && (state == Task::State::kOccluded || state == Task::State::kExpired))
-    aside_[task.object] = now + from_seconds(site_.settings.timeout);
+  if (!task.triggered && state != Task::State::kFound && state != Task::State::kCancelled)
+    leave_aside(task.object, now);
   ended_.push_back(task);
   if (ended_.size() > kMaxEnded) ended_.pop_front();
   return task;

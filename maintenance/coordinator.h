@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,10 @@ class Coordinator {
   Result<TaskEnd> check(const VerificationResult& result, Utime now) const;
   void end(const TaskEnd& end);
 
+  /// While a result is on its way to the log its task is in hand: nothing else changes it.
+  void take_in_hand(std::int64_t id) { in_hand_.insert(id); }
+  void put_back(std::int64_t id) { in_hand_.erase(id); }
+
   /// Ends the tasks whose deadline has come.
   std::vector<Task> expire(Utime now);
 
@@ -78,17 +83,20 @@ class Coordinator {
 
  private:
   class Reading;
+  void leave_aside(const std::string& object, Utime now);
   Task finish(std::int64_t id, Task::State state, Utime now, std::string reason);
   bool busy(const std::string& robot) const;
   Task* to_join(const Trigger& trigger, const std::string& object, Utime now);
-  void issue_triggered(Task& task, const ObjectBelief& object, const Reading& reading,
-                       const RobotPose* robot, Utime now);
+  const RobotPose* issue_triggered(Task& task, const ObjectBelief& object, const Reading& reading,
+                                   const std::vector<const RobotPose*>& robots, Utime now);
+  std::optional<Task> make_way(const std::string& robot, Utime now);
   std::optional<Task> own_choice(const Reading& reading, const RobotPose& robot, Utime now);
 
   std::shared_ptr<const Background> background_;
   const Site site_;
   const PlannerLimits limits_;
   std::map<std::int64_t, Task> active_;  ///< queued and issued, by id: in order of arrival
+  std::set<std::int64_t> in_hand_;       ///< of those
   std::deque<Task> ended_;               ///< in order of ending
   std::map<std::string, Utime> aside_;   ///< objects nobody sets out for until then
   std::int64_t last_id_ = 0;

@@ -12,11 +12,6 @@ namespace {
 
 constexpr double kLeastExistence = 0.1;  // of what the coordinator sets out for by itself
 
-/// Whether an id given earlier is this anchor's: it may have got its name since.
-bool is_called(const Anchor& anchor, const std::string& id) {
-  return anchor.id() == id || "new-" + std::to_string(anchor.birth) == id;
-}
-
 std::string number(double value) {
   std::ostringstream text;
   text.precision(3);
@@ -49,7 +44,7 @@ class Coordinator::Reading {
 
   const ObjectBelief* find(const std::string& id) const {
     const auto found = std::find_if(objects_.begin(), objects_.end(), [&](const auto& object) {
-      return is_called(*object.anchor, id) && !object.versions.empty();
+      return object.anchor->is_called(id) && !object.versions.empty();
     });
     return found == objects_.end() ? nullptr : &*found;
   }
@@ -79,15 +74,35 @@ bool Coordinator::busy(const std::string& robot) const {
   });
 }
 
-void Coordinator::issue_triggered(Task& task, const ObjectBelief& object, const Reading& reading,
-                                  const RobotPose* robot, Utime now) {
+/// Issues a triggered task to the robot that looks best, else to the first; null: to nobody.
+const RobotPose* Coordinator::issue_triggered(Task& task, const ObjectBelief& object,
+                                              const Reading& reading,
+                                              const std::vector<const RobotPose*>& robots,
+                                              Utime now) {
   reading.describe(task, object, now);
   task.sensor = task.wanted_sensor;
-  if (!robot) return;
-  task.robot = robot->robot;
+  if (robots.empty()) return nullptr;
   const std::vector<Subject> subject{subject_of(object, *background_)};
-  if (const auto action = choose_for(0, task.wanted_sensor, subject, *robot, site_))
-    fill_in(task, *action);
+  const RobotPose* chosen = robots.front();
+  std::optional<Action> best;
+  for (const RobotPose* robot : robots)
+    if (auto action = choose_for(0, task.wanted_sensor, subject, *robot, site_);
+        action && (!best || action->utility > best->utility)) {
+      best = std::move(action);
+      chosen = robot;
+    }
+  task.robot = chosen->robot;
+  if (best) fill_in(task, *best);
+  return chosen;
+}
+
+/// Takes the coordinator's own task from a robot, for a planner's: what became of it.
+std::optional<Task> Coordinator::make_way(const std::string& robot, Utime now) {
+  for (const auto& [id, task] : active_)
+    if (task.state == Task::State::kIssued && task.robot == robot && !task.triggered &&
+        !in_hand_.contains(id))
+      return finish(id, Task::State::kCancelled, now, "a planner's trigger came first");
+  return std::nullopt;
 }
 
 std::optional<Task> Coordinator::own_choice(const Reading& reading, const RobotPose& robot,
@@ -130,30 +145,35 @@ std::vector<Task> Coordinator::next(Utime now, const Belief& belief,
   std::vector<const RobotPose*> free;
   for (const RobotPose& robot : robots)
     if (!busy(robot.robot)) free.push_back(&robot);
-  /// The free robot a task may go to; null: none that has a pose.
-  const auto robot_for = [&](const std::string& name) {
-    return std::find_if(free.begin(), free.end(), [&](const RobotPose* robot) {
-      return name.empty() || robot->robot == name;
-    });
-  };
   std::vector<std::int64_t> waiting;  // in order of arrival
   for (const auto& [id, task] : active_)
     if (task.state == Task::State::kQueued) waiting.push_back(id);
   for (const std::int64_t id : waiting) {
     Task& task = active_.at(id);
-    const auto robot = robot_for(task.robot);
-    const bool has_pose = robot != free.end();
-    const bool known = std::any_of(robots.begin(), robots.end(), [&](const RobotPose& pose) {
-      return task.robot.empty() || pose.robot == task.robot;
-    });
-    if (!has_pose && (known || busy(task.robot))) continue;
+    const auto fits = [&](const RobotPose& robot) {
+      return task.robot.empty() || robot.robot == task.robot;
+    };
+    std::vector<const RobotPose*> candidates;
+    for (const RobotPose* robot : free)
+      if (fits(*robot)) candidates.push_back(robot);
+    const bool known = std::any_of(robots.begin(), robots.end(), fits);
+    if (candidates.empty() && !known && busy(task.robot)) continue;
     const ObjectBelief* object = read().find(task.object);
     if (!object) {
       changed.push_back(finish(id, Task::State::kCancelled, now, "there is no such object now"));
       continue;
     }
-    issue_triggered(task, *object, read(), has_pose ? *robot : nullptr, now);
-    if (has_pose) free.erase(robot);
+    for (const RobotPose& robot : robots) {
+      if (!candidates.empty()) break;
+      if (!fits(robot)) continue;
+      if (auto own = make_way(robot.robot, now)) {
+        changed.push_back(std::move(*own));
+        candidates.push_back(&robot);
+      }
+    }
+    if (candidates.empty() && known) continue;
+    const RobotPose* robot = issue_triggered(task, *object, read(), candidates, now);
+    std::erase(free, robot);
     changed.push_back(task);
   }
   if (!site_.settings.enabled || site_.eyes.empty()) return changed;

@@ -21,6 +21,8 @@ double mass_within(double radius, int dims) {
          std::sqrt(2 / std::numbers::pi) * radius * std::exp(-0.5 * radius * radius);
 }
 
+constexpr double kLeastVariance = 1e-12;  // m^2: a micrometre
+
 struct Bell {
   double weight;
   Gaussian density;
@@ -86,7 +88,9 @@ Parts parts_of(const ObjectBelief& object, const Background& background) {
       const double weight = version.weight(object.p) * model.weight;
       if (weight <= 0) continue;
       if (const auto* kinematic = std::get_if<Kinematic>(&model.density)) {
-        const Gaussian g = kinematic->position_density();
+        Gaussian g = kinematic->position_density();
+        // A density without width has no finite height.
+        g.covariance.diagonal().head(background.dims).array() += kLeastVariance;
         const auto same = std::find_if(parts.bells.begin(), parts.bells.end(), [&](const Bell& b) {
           return b.density.mean == g.mean && b.density.covariance == g.covariance;
         });
@@ -119,7 +123,8 @@ double level_for(double p, const Parts& parts, int dims) {
   for (const Patch& patch : parts.patches)
     for (const double height : patch.log_height) high = std::max(high, height);
   double step = 1, low = high;
-  while (parts.mass_above(low, dims) < p) low -= step, step *= 2;
+  // 64 doublings reach every finite height.
+  for (int i = 0; i < 64 && parts.mass_above(low, dims) < p; ++i) low -= step, step *= 2;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
     (parts.mass_above(middle, dims) >= p ? low : high) = middle;
@@ -130,7 +135,7 @@ double level_for(double p, const Parts& parts, int dims) {
 RegionOfInterest ellipsoid(const Bell& bell, double radius, int dims) {
   RegionOfInterest roi;
   roi.kind = RegionOfInterest::Kind::kEllipsoid;
-  roi.p = bell.weight * mass_within(radius, dims);
+  roi.p = std::min(bell.weight * mass_within(radius, dims), 1.0);
   Eigen::Map<Eigen::Vector3d>(roi.center.data()) = bell.density.mean;
   Eigen::Map<Eigen::Matrix3d>(roi.covariance.data()) = bell.density.covariance;
   roi.radius = radius;
@@ -140,7 +145,7 @@ RegionOfInterest ellipsoid(const Bell& bell, double radius, int dims) {
 RegionOfInterest prism(const Polygon& polygon, const Footprint& f, double p) {
   RegionOfInterest roi;
   roi.kind = RegionOfInterest::Kind::kPrism;
-  roi.p = p;
+  roi.p = std::min(p, 1.0);  // sums of rounded weights
   for (const Eigen::Vector2d& corner : polygon) roi.polygon.push_back({corner.x(), corner.y()});
   if (f.dims == 3) roi.z = {f.region.z_min, f.region.z_max};
   return roi;

@@ -79,7 +79,7 @@ Status check_task(const Task& task, int dims) {
     if (!status) return status;
     corners += region.polygon.size();
   }
-  if (corners > kMaxPolygonPoints) return invalid("regions", "have too many corners");
+  if (corners > kMaxRegions * kMaxPolygonPoints) return invalid("regions", "have too many corners");
   return Done{};
 }
 

@@ -1,5 +1,6 @@
 // Triggers, tasks, results and events over HTTP, with the program itself.
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/daemon/daemon_process.h"
@@ -20,7 +21,9 @@ class VerificationTest : public ::testing::Test {
       ASSERT_EQ(ask(port(), post("/v1/detections", ::anchord::json(frame_number(i)))).status, 200);
   }
   void start() {
-    daemon_ = std::make_unique<DaemonProcess>(folder_);
+    DaemonProcess::Options options;
+    options.scene = scene_;
+    daemon_ = std::make_unique<DaemonProcess>(folder_, options);
     ASSERT_TRUE(daemon_->ready());
   }
   std::uint16_t port() const { return daemon_->port(); }
@@ -53,6 +56,7 @@ class VerificationTest : public ::testing::Test {
     return to_json(frame);
   }
 
+  std::string scene_ = kScene;
   TestFolder folder_;
   std::unique_ptr<DaemonProcess> daemon_;
 };
@@ -117,6 +121,34 @@ TEST_F(VerificationTest, ARestartInTheMiddleOfATaskKeepsIt) {
       [&] { return got("/v1/verifications/" + waits["id"].dump())["state"] == "issued"; }));
   const json next = json::parse(send("/v1/verifications", {{"object", "cup-1"}}).body);
   EXPECT_GT(next["id"], waits["id"]) << "numbers are not given again";
+}
+
+/// kScene with a round place of very many corners.
+class ManyCornersTest : public VerificationTest {
+ protected:
+  ManyCornersTest() {
+    json scene = json::parse(kScene);
+    json round = json::array();
+    for (int i = 0; i < kMaxCorners; ++i)
+      round.push_back(
+          {5 + std::cos(2 * M_PI * i / kMaxCorners), 4 + std::sin(2 * M_PI * i / kMaxCorners)});
+    scene["places"].push_back({{"name", "rug"}, {"kind", "surface"}, {"polygon", round}});
+    scene_ = scene.dump();
+  }
+  static constexpr int kMaxCorners = 1000;  // that a configuration may have
+};
+
+TEST_F(ManyCornersTest, ATaskForAPlaceOfManyCornersSurvivesARestart) {
+  ASSERT_EQ(send("/v1/events", {{"utime", frame_number(5).utime},
+                                {"event", "moved"},
+                                {"object", "cup-1"},
+                                {"place", "rug"}})
+                .status,
+            200);
+  const json task = issued({{"object", "cup-1"}, {"timeout", 600}});
+  daemon_->end(SIGKILL);
+  start();
+  EXPECT_EQ(got("/v1/verifications/" + task["id"].dump())["state"], "issued");
 }
 
 TEST_F(VerificationTest, TasksExpireAndAreCancelled) {

@@ -45,20 +45,25 @@ TEST_F(FrameLogTest, KeepsTheNewestRecordOfEachTask) {
   };
   {
     auto log = open();
-    ASSERT_TRUE(log->put_task(1, {1}).ok());
-    ASSERT_TRUE(log->put_task(2, {2}).ok());
-    ASSERT_TRUE(log->put_task(1, {1, 1}).ok());
+    ASSERT_TRUE(log->put_task(1, true, {1}).ok());
+    ASSERT_TRUE(log->put_task(2, true, {2}).ok());
+    ASSERT_TRUE(log->put_task(1, true, {1, 1}).ok());
     ASSERT_TRUE(log->commit().ok());
-    ASSERT_TRUE(log->put_task(3, {3}).ok());
+    ASSERT_TRUE(log->put_task(3, true, {3}).ok());
     log->rollback();
-    ASSERT_TRUE(log->put_task(4, {4}).ok());  // not committed
+    ASSERT_TRUE(log->put_task(4, true, {4}).ok());  // not committed
   }
   auto log = open();
   EXPECT_EQ(tasks(*log), (Tasks{{1, {1, 1}}, {2, {2}}}));
-  ASSERT_TRUE(log->put_task(5, {5}).ok());
-  ASSERT_TRUE(log->keep_tasks(4).ok());  // 2 to 5
+  ASSERT_TRUE(log->put_task(5, true, {5}).ok());
+  ASSERT_TRUE(log->put_task(6, false, {6}).ok());
+  ASSERT_TRUE(log->keep_tasks(5).ok());  // 2 to 6
   ASSERT_TRUE(log->commit().ok());
-  EXPECT_EQ(tasks(*log), (Tasks{{2, {2}}, {5, {5}}}));
+  EXPECT_EQ(tasks(*log), (Tasks{{2, {2}}, {5, {5}}, {6, {6}}}));
+  ASSERT_TRUE(log->put_task(9, true, {9}).ok());
+  ASSERT_TRUE(log->keep_tasks(1).ok());  // 9, and 6, which has not ended
+  ASSERT_TRUE(log->commit().ok());
+  EXPECT_EQ(tasks(*log), (Tasks{{6, {6}}, {9, {9}}}));
 }
 
 TEST_F(FrameLogTest, BringsVersion1UpToDate) {
@@ -76,7 +81,7 @@ TEST_F(FrameLogTest, BringsVersion1UpToDate) {
   for (int time = 0; time < 2; ++time) {
     auto log = open();
     EXPECT_EQ(all(*log), std::vector<LoggedFrame>{frame_number(1)});
-    EXPECT_TRUE(log->put_task(1, {1}).ok());
+    EXPECT_TRUE(log->put_task(1, true, {1}).ok());
     LoggedFrame event = frame_number(1);
     event.kind = LoggedFrame::Kind::kEvent;
     event.sequence = 2;

@@ -264,7 +264,7 @@ TEST(VerificationCheckFields, RefusesWhatIsOverALimit) {
   EXPECT_EQ(task_with([&](verify_task_t& t) { regions(t, kMaxRegions + 1); }), "num_regions");
 
   Event event = testing::full_event();
-  event.regions[1].polygon.resize(kMaxRegions);
+  event.regions[1].polygon.resize(kMaxPolygonPoints);
   EXPECT_EQ(field_of(decode_event, encode(event, 1)), "accepted");
   event.regions[1].polygon.emplace_back();
   EXPECT_EQ(field_of(decode_event, encode(event, 1)), "regions[1].num_points");

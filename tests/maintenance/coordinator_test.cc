@@ -155,6 +155,28 @@ TEST_F(Triggers, EndedTasksAreKeptButNotForEver) {
   EXPECT_EQ(coordinator.find(11)->state, Task::State::kCancelled);
 }
 
+TEST_F(Triggers, NothingChangesATaskWhoseResultIsOnItsWayToTheLog) {
+  const std::int64_t task = id("cup-1");
+  ASSERT_EQ(next().size(), 1u);
+  const auto end = coordinator.check(result(task, Outcome::kFound), kStart + kSecond);
+  ASSERT_TRUE(end.ok());
+  coordinator.take_in_hand(task);
+  EXPECT_EQ(coordinator.cancel(task, kStart + kSecond).error().code, ErrorCode::kConflict);
+  EXPECT_EQ(coordinator.check(result(task, Outcome::kFound), kStart + kSecond).error().code,
+            ErrorCode::kConflict);
+  EXPECT_TRUE(coordinator.expire(kStart + 100'000 * kSecond).empty());
+  EXPECT_NE(id("cup-1"), task) << "not joined";
+  coordinator.end(*end);
+  EXPECT_EQ(coordinator.find(task)->state, Task::State::kFound);
+}
+
+TEST_F(Triggers, OfTwoFreeRobotsTheOneThatLooksBestIsSent) {
+  (void)id("cup-2");  // at (8, 8)
+  const auto issued = next(kStart, {robot_at(1, 1, "far"), robot_at(7, 7, "near")});
+  ASSERT_EQ(issued.size(), 1u);
+  EXPECT_EQ(issued[0].robot, "near");
+}
+
 TEST_F(Triggers, CancellingEndsATaskOnce) {
   const std::int64_t task = id("cup-1");
   ASSERT_EQ(next().size(), 1u);

@@ -59,6 +59,20 @@ TEST_P(OwnChoice, TriggersComeFirst) {
   EXPECT_TRUE(issued[0].triggered);
 }
 
+TEST_P(OwnChoice, MakesWayForATrigger) {
+  const auto own = next(60);
+  ASSERT_EQ(own.size(), 1u);
+  const std::string other = own[0].object == "cup-1" ? "cup-2" : "cup-1";
+  ASSERT_TRUE(coordinator.add({}, other, "cup", kStart + 61 * kSecond).ok());
+  const auto changed = next(61);
+  ASSERT_EQ(changed.size(), 2u);
+  EXPECT_EQ(changed[0].id, own[0].id);
+  EXPECT_EQ(changed[0].state, Task::State::kCancelled);
+  EXPECT_EQ(changed[1].object, other);
+  EXPECT_EQ(changed[1].state, Task::State::kIssued);
+  EXPECT_TRUE(next(62).empty()) << "a trigger's task makes way for nobody";
+}
+
 TEST_P(OwnChoice, WhatARobotHoldsIsNotLookedFor) {
   Event event;
   event.kind = Event::Kind::kGrasped;

@@ -120,6 +120,22 @@ TEST(Roi, WhereASensorLookedInVainIsLeftOut) {
   EXPECT_NEAR(area, 10, 0.6);  // the strip; 95 % of it would do
 }
 
+TEST(Roi, ADensityWithoutWidthHasARegion) {
+  RoomOptions options;
+  options.models = R"([{"kind": "constant_position", "position_psd": 0}])";
+  World world(room(options));
+  Frame frame = cups_at({{2, 2}}, kStart);
+  // Its determinant is no number above 0.
+  std::get<CartesianMeasurement>(frame.detections[0].measurement).covariance = {1e-180, 0, 0,
+                                                                                1e-180};
+  ASSERT_TRUE(world.apply(frame).ok());
+  const auto objects = read_objects(*world.belief(), kStart, 0, *world.background());
+  ASSERT_FALSE(objects.empty());
+  const auto regions = regions_of(objects[0], *world.background());
+  ASSERT_EQ(regions.size(), 1u);
+  EXPECT_LT(regions[0].radius * std::sqrt(regions[0].covariance[0]), 1e-3);
+}
+
 TEST(Roi, TheAppearanceIsWhatWasReported) {
   World world(room());
   Frame frame = cups_at({{5, 5}}, kStart);
