@@ -1,5 +1,7 @@
 #include "api/verification_json.h"
 
+#include <cctype>
+#include <cstring>
 #include <string>
 
 #include "api/event_json.h"
@@ -11,6 +13,23 @@ namespace anchord {
 namespace {
 
 using Json = nlohmann::json;
+
+/// As it stands in a question's target: letters, digits and `-_.~` as they are.
+std::string percent_encoded(const std::string& text) {
+  constexpr char kHex[] = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || std::strchr("-_.~", c)) {
+      out += c;
+    } else {
+      out += '%';
+      out += kHex[byte >> 4];
+      out += kHex[byte & 15];
+    }
+  }
+  return out;
+}
 
 class VerificationReader : public JsonFields {
  public:
@@ -62,7 +81,8 @@ class VerificationReader : public JsonFields {
     }
     std::string symbol;  // an attribute of the description
     if (!read(value, field, symbol)) return false;
-    out.description += (out.description.empty() ? "" : "&") + key + "=" + symbol;
+    out.description +=
+        (out.description.empty() ? "" : "&") + percent_encoded(key) + "=" + percent_encoded(symbol);
     return true;
   }
 

@@ -173,6 +173,7 @@ TEST_F(VerificationTest, RefusalsNameTheField) {
       {"/v1/verifications", json::object(), 400, "object"},
       {"/v1/verifications", {{"object", "cup-1"}, {"class", "cup"}}, 400, "object"},
       {"/v1/verifications", {{"class", "mug"}}, 400, "description.class"},
+      {"/v1/verifications", {{"class", "cup&color=red"}}, 400, "description.class"},
       {"/v1/verifications", {{"object", "cup-1"}, {"timeout", -1}}, 400, "timeout"},
       {"/v1/verifications", {{"object", "cup-1"}, {"action", "juggle"}}, 400, "action"},
       {"/v1/verifications/1/result", {{"outcome", "lost"}}, 400, "outcome"},
