@@ -64,14 +64,16 @@ Status Service::start(const std::atomic<bool>& cancelled) {
   if (journal_->logged_frames() > 0)
     spdlog::info("restored the belief from {} frames in {:.1f} s", journal_->logged_frames(),
                  seconds() - begin);
-  if (Status taken_up = verifications_->start(); !taken_up) return taken_up;
-  journal_->start();
-  ready_ = true;
+  if (Status taken_up = verifications_->restore(); !taken_up) return taken_up;
   const auto answerer = [backend = backend()](const HttpTarget& target) {
     return answer_get(target, backend);
   };
+  // All subscriptions are made before anything can be published.
   if (Status received = lcm_->start(*journal_, *verifications_, robots_, answerer); !received)
     return received;
+  journal_->start();
+  verifications_->start();
+  ready_ = true;
   sd_notify(0, "READY=1");
   spdlog::info("ready: http://{} and LCM {}", sources().http_address, lcm_->url());
   return Done{};

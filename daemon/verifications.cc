@@ -49,15 +49,16 @@ Verifications::Verifications(Journal& journal, Robots& robots, Publish publish)
 
 Verifications::~Verifications() { stop(); }
 
-Status Verifications::start() {
+Status Verifications::restore() {
   auto tasks = journal_.tasks();
   if (!tasks) return tasks.error();
-  {
-    std::lock_guard lock(mutex_);
-    coordinator_.restore(std::move(*tasks));
-  }
-  thread_ = std::thread([this] { run(); });
+  std::lock_guard lock(mutex_);
+  coordinator_.restore(std::move(*tasks));
   return Done{};
+}
+
+void Verifications::start() {
+  thread_ = std::thread([this] { run(); });
 }
 
 void Verifications::stop() {

@@ -35,8 +35,10 @@ class Verifications {
   Verifications(const Verifications&) = delete;
   Verifications& operator=(const Verifications&) = delete;
 
-  /// Takes up the tasks that the log keeps, and begins to decide. After Journal::restore().
-  Status start();
+  /// Takes up the tasks that the log keeps. After Journal::restore(), before anything is received.
+  Status restore();
+  /// Begins to decide.
+  void start();
   void stop();
 
   /// A planner's trigger. `done`, which may be empty, is called once, on any thread: with the task
