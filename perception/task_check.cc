@@ -79,7 +79,9 @@ Status check_task(const Task& task, int dims) {
     if (!status) return status;
     corners += region.polygon.size();
   }
-  if (corners > kMaxRegions * kMaxPolygonPoints) return invalid("regions", "have too many corners");
+  // A place as large as a configuration may have, and rows of cells.
+  if (corners > kMaxPolygonPoints + 3 * kMaxRegions)
+    return invalid("regions", "have too many corners");
   return Done{};
 }
 
