@@ -13,6 +13,10 @@
 
 namespace anchord {
 
+/// An object of at least this probability is believed in: it gets a name, and stands in a best world
+/// of whose leaf this is the r.
+inline constexpr double kBelievedIn = 0.5;
+
 /// One object that is believed to exist, whichever hypothesis leads: its identity for life.
 struct Anchor {
   std::uint64_t birth = 0;  ///< counts anchors in order of birth (frame, then detection)

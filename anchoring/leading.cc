@@ -13,8 +13,6 @@ namespace {
 constexpr double kClearly = 2.302585092994046;  // ln 10
 /// Positions closer than this, in standard deviations of their difference, are the same spot.
 constexpr double kSameSpot = 1;
-constexpr double kBelievedIn = 0.5;
-
 class Names {
  public:
   Names(const Cluster& cluster, int dims) : cluster_(cluster), dims_(dims) {}

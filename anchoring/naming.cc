@@ -6,8 +6,6 @@
 namespace anchord {
 namespace {
 
-constexpr double kBelievedIn = 0.5;
-
 bool deserves_name(const Cluster& cluster, int anchor) {
   const Leaf* best = cluster.best_leaf(anchor);
   return (best && best->existence >= kBelievedIn) || cluster.existence(anchor) >= kBelievedIn;

@@ -15,8 +15,11 @@ struct ObjectBelief {
   struct Version {
     double probability = 0;  ///< that its leaf is the true one: the sum of P(h) over hypotheses
     Leaf leaf;
-    /// Of this version in the density of the object given that it exists.
-    double weight(double p) const { return p > 0 ? probability * leaf.existence / p : 0; }
+    /// Of this version in the density of the object given that it exists, which has probability
+    /// `exists`.
+    double weight(double exists) const {
+      return exists > 0 ? probability * leaf.existence / exists : 0;
+    }
   };
   std::shared_ptr<const Anchor> anchor;
   double p = 0;          ///< that it exists

@@ -128,7 +128,7 @@ class EventReader : public JsonFields {
            read(*radius, field.member("radius"), out.radius);
   }
 
-  const Field top_;  // the document itself
+  const Field top_{};  // the document itself
   const int dims_;
 };
 

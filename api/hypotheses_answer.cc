@@ -35,7 +35,7 @@ std::optional<Leaf> leaf_in(const Cluster& cluster, int hypothesis, std::size_t 
   return leaf;
 }
 
-bool stands(const std::optional<Leaf>& leaf) { return leaf && leaf->existence >= 0.5; }
+bool stands(const std::optional<Leaf>& leaf) { return leaf && leaf->existence >= kBelievedIn; }
 
 /// How an anchor in one world differs from the best one; null if not in a way that shows.
 Json difference(const Anchor& anchor, const std::optional<Leaf>& best,

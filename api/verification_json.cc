@@ -1,35 +1,17 @@
 #include "api/verification_json.h"
 
-#include <cctype>
-#include <cstring>
 #include <string>
 
 #include "api/event_json.h"
 #include "api/frame_json.h"
 #include "api/json_fields.h"
 #include "api/json_text.h"
+#include "core/percent_encoding.h"
 
 namespace anchord {
 namespace {
 
 using Json = nlohmann::json;
-
-/// As it stands in a question's target: letters, digits and `-_.~` as they are.
-std::string percent_encoded(const std::string& text) {
-  constexpr char kHex[] = "0123456789ABCDEF";
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) || std::strchr("-_.~", c)) {
-      out += c;
-    } else {
-      out += '%';
-      out += kHex[byte >> 4];
-      out += kHex[byte & 15];
-    }
-  }
-  return out;
-}
 
 class VerificationReader : public JsonFields {
  public:
@@ -63,7 +45,7 @@ class VerificationReader : public JsonFields {
   }
 
  private:
-  const Field top_;  // the document itself
+  const Field top_{};  // the document itself
 
   bool member(const std::string& key, const Json& value, Trigger& out) {
     const Field field = top_.member(key.c_str());

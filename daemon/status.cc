@@ -20,7 +20,7 @@ BeliefSize size_of(const Belief& belief) {
     for (int a = 0; a < static_cast<int>(cluster->anchors.size()); ++a) {
       size.expected += cluster->existence(a);
       const Leaf* best = cluster->best_leaf(a);
-      size.objects += best && best->existence >= 0.5 ? 1 : 0;
+      size.objects += best && best->existence >= kBelievedIn ? 1 : 0;
     }
   }
   return size;

@@ -7,25 +7,11 @@
 #   --document FILE  put tables and figures into this document, too
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source experiments/options.sh
 
 runs=250 build=build out=build/experiments/maintenance document=
-while [ $# -gt 0 ]; do
-  case $1 in
-    --runs | --build | --out | --document)
-      [ $# -ge 2 ] || { echo "$0: $1 wants a value" >&2; exit 2; }
-      declare "${1#--}=$2"
-      shift 2
-      ;;
-    *)
-      sed -n '2,8s/^# \{0,1\}//p' "$0" >&2
-      exit 2
-      ;;
-  esac
-done
-if [ ! -x "$build/maintenance_simulation" ]; then
-  echo "$0: $build/maintenance_simulation is not there; run ./dev build, or give --build" >&2
-  exit 1
-fi
+read_options "--runs --build --out --document" "$(sed -n '2,8s/^# \{0,1\}//p' experiments/maintenance/run.sh)" "$@"
+need_program "$build/maintenance_simulation"
 mkdir -p "$out"
 # Two at a time.
 "$build/maintenance_simulation" --runs "$runs" house "quiet house" >"$out/house.csv" &

@@ -8,25 +8,11 @@
 #   tells the errors. Without it: one person, from where she first stands.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source experiments/options.sh
 
 build=build out=build/experiments/verification truth=
-while [ $# -gt 0 ]; do
-  case $1 in
-    --truth | --build | --out)
-      [ $# -ge 2 ] || { echo "$0: $1 wants a value" >&2; exit 2; }
-      declare "${1#--}=$2"
-      shift 2
-      ;;
-    *)
-      sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
-      exit 2
-      ;;
-  esac
-done
-if [ ! -x "$build/verification_follow" ]; then
-  echo "$0: $build/verification_follow is not there; run ./dev build, or give --build" >&2
-  exit 1
-fi
+read_options "--truth --build --out" "$(sed -n '2,9s/^# \{0,1\}//p' experiments/verification/run.sh)" "$@"
+need_program "$build/verification_follow"
 mkdir -p "$out"
 tools/fetch_vtest.sh "$out" >/dev/null
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/percent_encoding.h"
+
 #include "tools/anchorctl/http_client.h"
 
 namespace anchord {

@@ -56,12 +56,6 @@ double covered(const ObjectBelief& object, const std::vector<RegionOfInterest>& 
 }
 constexpr double kSampling = 0.007;  // four deviations of 20,000 draws at 0.95
 
-ObjectBelief only_object(const World& world, double seconds) {
-  auto all = read_objects(*world.belief(), kStart + from_seconds(seconds), 0, *world.background());
-  EXPECT_EQ(all.size(), 1u);
-  return all.front();
-}
-
 TEST(Roi, OneGaussianIsOneEllipsoidOfTheChiSquareQuantile) {
   World world(room());
   ASSERT_TRUE(world.apply(cups_at({{5, 5}}, kStart)).ok());
@@ -75,11 +69,7 @@ TEST(Roi, OneGaussianIsOneEllipsoidOfTheChiSquareQuantile) {
 }
 
 TEST(Roi, MixturesHoldTheirShareWhateverTheyConsistOf) {
-  RoomOptions options;
-  options.models = R"([{"kind": "constant_position", "position_psd": 0.01},
-                       {"kind": "somewhere", "rate": 0.01}])";
-  World world(room(options));
-  ASSERT_TRUE(world.apply(cups_at({{5, 5}}, kStart)).ok());
+  World world = with_a_cup_that_gets_lost(R"({"kind": "constant_position", "position_psd": 0.01})");
   // Somewhere weighs 1 - exp(-0.01 t): 0.02, 0.1, 0.63, 0.95.
   for (const double seconds : {2.0, 10.0, 100.0, 300.0}) {
     const ObjectBelief object = only_object(world, seconds);

@@ -1,5 +1,7 @@
 #include "tests/maintenance/small_home.h"
 
+#include <gtest/gtest.h>
+
 #include <cstdio>
 #include <cstdlib>
 
@@ -60,6 +62,20 @@ Frame cups_at(const std::vector<std::array<double, 2>>& positions, Utime utime, 
     frame.detections.push_back(detection);
   }
   return frame;
+}
+
+ObjectBelief only_object(const World& world, double seconds) {
+  auto all = read_objects(*world.belief(), kStart + from_seconds(seconds), 0, *world.background());
+  EXPECT_EQ(all.size(), 1u);
+  return all.front();
+}
+
+World with_a_cup_that_gets_lost(const std::string& tracked) {
+  RoomOptions options;
+  options.models = "[" + tracked + R"(, {"kind": "somewhere", "rate": 0.01}])";
+  World world(room(options));
+  EXPECT_TRUE(world.apply(cups_at({{5, 5}}, kStart)).ok());
+  return world;
 }
 
 }  // namespace anchord

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "anchoring/reading.h"
 #include "anchoring/world.h"
 #include "knowledge/knowledge.h"
 #include "maintenance/planner.h"
@@ -36,5 +37,12 @@ inline constexpr Utime kStart = 1'700'000'000'000'000;
 /// A frame of the eye, in the map frame, seeing the world: detections with a variance.
 Frame cups_at(const std::vector<std::array<double, 2>>& positions, Utime utime,
               double variance = 0.01);
+
+/// What is believed some seconds after kStart of the one object there is.
+ObjectBelief only_object(const World& world, double seconds);
+
+/// A room with one cup, seen at (5, 5) at kStart, that may get lost: its models are `tracked`, as
+/// JSON text, and a `somewhere` entered at 0.01 / s.
+World with_a_cup_that_gets_lost(const std::string& tracked);
 
 }  // namespace anchord

@@ -27,18 +27,8 @@ constexpr const char* kTwoClasses = R"({
                       "confusion": {"class": {"cup": {"cup": 0.8}, "mug": {"mug": 0.8}}},
                       "verification": {}}}})";
 
-ObjectBelief only_object(const World& world, double seconds) {
-  auto all = read_objects(*world.belief(), kStart + from_seconds(seconds), 0, *world.background());
-  EXPECT_EQ(all.size(), 1u);
-  return all.front();
-}
-
 TEST(Subject, PredictsWhatTheBeliefPredicts) {
-  RoomOptions options;
-  options.models = R"([{"kind": "constant_velocity", "acceleration_psd": 0.01},
-                       {"kind": "somewhere", "rate": 0.01}])";
-  World world(room(options));
-  ASSERT_TRUE(world.apply(cups_at({{5, 5}}, kStart)).ok());
+  World world = with_a_cup_that_gets_lost(R"({"kind": "constant_velocity", "acceleration_psd": 0.01})");
   ASSERT_TRUE(world.apply(cups_at({{5.1, 5}}, kStart + 1'000'000)).ok());
   const Site site(world.background()->knowledge);
   const std::vector<Subject> now{subject_of(only_object(world, 1), *world.background())};
@@ -52,11 +42,7 @@ TEST(Subject, PredictsWhatTheBeliefPredicts) {
 }
 
 TEST(Subject, IsAsUncertainAsItsObject) {
-  RoomOptions options;
-  options.models = R"([{"kind": "constant_position", "position_psd": 0.01},
-                       {"kind": "somewhere", "rate": 0.01}])";
-  World world(room(options));
-  ASSERT_TRUE(world.apply(cups_at({{5, 5}}, kStart)).ok());
+  World world = with_a_cup_that_gets_lost(R"({"kind": "constant_position", "position_psd": 0.01})");
   const Site site(world.background()->knowledge);
   for (const double seconds : {0.0, 1.0, 20.0, 100.0}) {
     const ObjectBelief object = only_object(world, seconds);

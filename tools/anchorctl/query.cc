@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/percent_encoding.h"
+
 namespace anchord {
 namespace {
 
@@ -76,21 +78,6 @@ std::string make_query(const Parameters& parameters) {
   for (const auto& [name, value] : parameters)
     query += (query.empty() ? "" : "&") + percent_encoded(name) + "=" + percent_encoded(value);
   return query;
-}
-
-std::string percent_encoded(const std::string& text) {
-  constexpr char kDigits[] = "0123456789ABCDEF";
-  std::string encoded;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (letter || is_digit(c) || c == '-' || c == '.' || c == '_' || c == '~') {
-      encoded += c;
-    } else {
-      encoded += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
-    }
-  }
-  return encoded;
 }
 
 }  // namespace anchord

@@ -27,7 +27,4 @@ std::string make_target(const std::string& command, Parameters parameters);
 /// `class=cup&color=light%20blue`.
 std::string make_query(const Parameters& parameters);
 
-/// All but letters, digits and "-._~" as %XX.
-std::string percent_encoded(const std::string& text);
-
 }  // namespace anchord
