@@ -17,25 +17,27 @@ class Names {
  public:
   Names(const Cluster& cluster, int dims) : cluster_(cluster), dims_(dims) {}
 
-  /// Whether a hypothesis has each object about where the world shown so far has it.
+  /// Whether a hypothesis has each object about where the world shown so far has it, and none under
+  /// another name.
   bool kept_by(const Hypothesis& h) const {
     for (std::size_t a = 0; a < h.leaf.size(); ++a) {
       const int shown = cluster_.anchors[a].shown;
-      if (h.leaf[a] == shown || !stands(a, shown) || !stands(a, h.leaf[a])) continue;
-      if (apart(leaf(a, shown), leaf(a, h.leaf[a]))) return false;
+      if (h.leaf[a] == shown || !stands(a, shown)) continue;
+      if (stands(a, h.leaf[a]) ? apart(leaf(a, shown), leaf(a, h.leaf[a])) : taken(h, a))
+        return false;
     }
     return true;
   }
 
-  /// Whether two hypotheses have the same objects in the same spots, only under other names.
+  /// Whether two hypotheses have objects in the same spots, only under other names.
   bool only_differ(const Hypothesis& g, const Hypothesis& h) const {
     std::vector<const Leaf*> in_g, in_h;
     for (std::size_t a = 0; a < h.leaf.size(); ++a) {
-      if (stands(a, g.leaf[a]) != stands(a, h.leaf[a])) return false;
-      if (g.leaf[a] == h.leaf[a] || !stands(a, g.leaf[a])) continue;
-      in_g.push_back(&leaf(a, g.leaf[a]));
-      in_h.push_back(&leaf(a, h.leaf[a]));
+      if (g.leaf[a] == h.leaf[a]) continue;
+      if (stands(a, g.leaf[a])) in_g.push_back(&leaf(a, g.leaf[a]));
+      if (stands(a, h.leaf[a])) in_h.push_back(&leaf(a, h.leaf[a]));
     }
+    if (in_g.size() != in_h.size()) return false;
     for (const Leaf* one : in_g) {
       auto like = in_h.begin();
       while (like != in_h.end() && apart(*one, **like)) ++like;
@@ -46,6 +48,16 @@ class Names {
   }
 
  private:
+  /// Whether what was shown of an anchor is in a hypothesis another one's, which was not there.
+  bool taken(const Hypothesis& h, std::size_t anchor) const {
+    const Leaf& was = leaf(anchor, cluster_.anchors[anchor].shown);
+    for (std::size_t b = 0; b < h.leaf.size(); ++b) {
+      const int shown = cluster_.anchors[b].shown;
+      if (b == anchor || !stands(b, h.leaf[b]) || apart(was, leaf(b, h.leaf[b]))) continue;
+      if (!stands(b, shown) || apart(leaf(b, shown), leaf(b, h.leaf[b]))) return true;
+    }
+    return false;
+  }
   const Leaf& leaf(std::size_t anchor, int l) const { return *cluster_.anchors[anchor].leaves[l]; }
   bool stands(std::size_t anchor, int l) const {
     return l != Hypothesis::kNoLeaf && leaf(anchor, l).existence >= kBelievedIn;

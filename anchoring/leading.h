@@ -6,8 +6,9 @@ namespace anchord {
 
 /// Chooses the hypothesis of a cluster that the best world shows: the most probable one, unless
 /// that is the world shown so far but for its names. Where two like objects have met and parted,
-/// worlds in which they have kept and exchanged their names stay about equally probable for long,
-/// and take turns at the top; names that follow them call an object now this, now that. So a world
+/// worlds in which they have kept and exchanged their names stay about equally probable for long;
+/// so do worlds in which one object goes by the name of its first detection and of its second. They
+/// take turns at the top, and names that follow them call an object now this, now that. So a world
 /// that gives the objects shown so far (AnchorTree::shown) other names must outweigh the one that
 /// keeps them clearly. Sets Cluster::leading and the trees' `shown`.
 void choose_leading(Cluster& cluster, int dims);

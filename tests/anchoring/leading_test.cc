@@ -67,10 +67,27 @@ TEST(Leading, AnotherStateOfTheWorldIsShownAtOnce) {
   Cluster fewer = two_objects({{0.6, {kNone, kThere}}, {0.4, {kHere, kThere}}});
   choose_leading(fewer, 2);
   EXPECT_EQ(fewer.leading, 0);
-  // An object by another name only: nothing is exchanged.
-  Cluster other = two_objects({{0.6, {kNone, kHere}}, {0.4, {kHere, kNone}}});
-  choose_leading(other, 2);
-  EXPECT_EQ(other.leading, 0);
+}
+
+TEST(Leading, OneObjectUnderTwoNamesKeepsTheNameItWasShownUnder) {
+  // The first detection was the object's, or clutter, and the object came with the second.
+  const auto twins = [](double other_name) {
+    Cluster cluster = two_objects({{other_name, {kNone, kHere}}, {1 - other_name, {kHere, kNone}}});
+    cluster.anchors[1].shown = kNone;
+    choose_leading(cluster, 2);
+    return cluster.leading;
+  };
+  EXPECT_EQ(twins(0.6), 1);
+  EXPECT_EQ(twins(0.9), 1);
+  EXPECT_EQ(twins(0.92), 0);
+}
+
+TEST(Leading, AnObjectThatIsGoneIsNotItsNeighbour) {
+  // The second one stays where it was shown, close to where the first was: nobody took its place.
+  Cluster cluster = two_objects({{0.6, {kNone, kHere}}, {0.4, {kHere, kNone}}});
+  cluster.anchors[1].shown = kHere;
+  choose_leading(cluster, 2);
+  EXPECT_EQ(cluster.leading, 0);
 }
 
 TEST(Leading, WithoutAWorldShownBeforeTheMostProbableLeads) {
