@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "geometry/rotation.h"
+
 namespace anchord {
 
 namespace {
@@ -29,6 +31,16 @@ Camera::Camera(const CameraParameters& parameters) : parameters_(parameters) {
                AngleAxisd(parameters.rotation.x(), Vector3d::UnitX()))
                   .toRotationMatrix();
   centre_map_ = -(rotation_.transpose() * parameters.translation);
+}
+
+Camera Camera::at(const Pose& pose) const {
+  Eigen::Matrix3d camera_from_sensor;
+  camera_from_sensor << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  Camera result = *this;
+  result.rotation_ = camera_from_sensor * rotation_of(pose).transpose();
+  result.centre_map_ = Eigen::Vector3d(pose.position.data());
+  result.parameters_.translation = -(result.rotation_ * result.centre_map_);
+  return result;
 }
 
 Eigen::Vector2d Camera::project(const Eigen::Vector3d& p_map) const {

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "core/frame.h"
+
 namespace anchord {
 
 /// The numbers of a calibrated camera: R. Y. Tsai, "A versatile camera calibration technique for
@@ -18,6 +20,7 @@ struct CameraParameters {
   double dpx = 0, dpy = 0;                                ///< mm per pixel
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< rx, ry, rz; R = Rz(rz) Ry(ry) Rx(rx)
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< m; p_camera = R p_map + translation
+  bool carried = false;  ///< a robot carries it: each picture has a pose instead (see Camera::at())
 };
 
 /// Where a pixel's ray meets the ground, and how that moves with the pixel.
@@ -36,6 +39,10 @@ struct SpacePoint {
 class Camera {
  public:
   explicit Camera(const CameraParameters& parameters);
+
+  /// The camera where a pose has it. The axes of the pose are a sensor's (core/frame.h): x along
+  /// the optical axis, y to the left of the picture, z to its top.
+  Camera at(const Pose& pose) const;
 
   int width() const { return parameters_.width; }
   int height() const { return parameters_.height; }
@@ -69,7 +76,7 @@ class Camera {
   Ray ray(const Eigen::Vector2d& pixel) const;
 
   CameraParameters parameters_;
-  Eigen::Matrix3d rotation_;
+  Eigen::Matrix3d rotation_;  ///< camera (x right, y down, z forward) from map
   Eigen::Vector3d centre_map_;
 };
 

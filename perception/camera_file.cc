@@ -54,8 +54,19 @@ void read_camera(const JsonValue& in, CameraParameters& camera) {
   const auto pixel = needed_numbers<2>(in, "pixel", kPositive);
   camera.dpx = pixel[0];
   camera.dpy = pixel[1];
+  camera.carried = !in.find("rotation") && !in.find("translation");
+  if (camera.carried) return;
   camera.rotation = Eigen::Vector3d(needed_numbers<3>(in, "rotation", kAnyNumber).data());
   camera.translation = Eigen::Vector3d(needed_numbers<3>(in, "translation", kCoordinate).data());
+}
+
+/// Pixels that always show the same part of the map, which a carried camera has none of.
+std::optional<JsonValue> fixed_pixels(const JsonValue& in, const char* key, bool carried) {
+  auto value = in.find(key);
+  if (!value || !carried) return value;
+  in.mistake_at(in.path_of(key),
+                "is for a camera that stands still: camera has no rotation and translation");
+  return std::nullopt;
 }
 
 std::vector<std::array<double, 2>> pixels(const JsonValue& in) {
@@ -186,8 +197,10 @@ std::optional<DetectorSettings> read(const std::optional<nlohmann::json>& docume
   }
   root.read("sensor", settings.sensor);
   if (const auto camera = needed(root, "camera")) read_camera(*camera, settings.camera);
-  if (const auto view = needed(root, "view")) settings.view = pixels(*view);
-  if (const auto occluders = root.find("occluders")) {
+  const bool carried = settings.camera.carried;
+  if (!carried) needed(root, "view");
+  if (const auto view = fixed_pixels(root, "view", carried)) settings.view = pixels(*view);
+  if (const auto occluders = fixed_pixels(root, "occluders", carried)) {
     for (const JsonValue& each : occluders->elements(kMostOccluders)) {
       settings.occluders.push_back(pixels(each));
     }

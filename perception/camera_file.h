@@ -13,6 +13,9 @@ namespace anchord {
 /// knowledge/configuration.h). `camera` must be there whole, and `view` and `colors`; what else is
 /// left out keeps the defaults of DetectorSettings. Unknown keys are mistakes.
 ///
+/// Without both `rotation` and `translation` the camera is carried: where it is comes with each
+/// picture. `view` and `occluders`, pixels of a camera that stands still, are then mistakes.
+///
 ///     {"sensor": "camera",
 ///      "camera": {"image": [768, 576], "focal": mm, "kappa1": 1/mm^2, "center": [u, v], "sx": 1,
 ///                 "pixel": [mm, mm], "rotation": [rx, ry, rz], "translation": [m, m, m]},

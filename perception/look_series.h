@@ -9,7 +9,7 @@ namespace anchord {
 
 /// What the looks of one task come to. A single miss means little (thesis section 3.7.3): found
 /// counts at once, missing and occluded only after a number of looks in a row say so; a doubtful
-/// look breaks the row.
+/// look, and one elsewhere, breaks the row.
 class LookSeries {
  public:
   /// `looks` >= 1: in a row.

@@ -1,6 +1,7 @@
 #include "perception/roi_mask.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -80,12 +81,23 @@ bool project_body(const Camera& camera, const Eigen::Vector3d& position, const B
   return true;
 }
 
-/// The convex hull of what a body in the region covers; nothing: it reaches behind the camera.
+/// Whether all of a body is behind the camera.
+bool is_behind(const Camera& camera, const Eigen::Vector3d& position, const Body& body) {
+  const double reach = std::hypot(body.radius, std::max(body.below, body.above));
+  return camera.depth(position) + reach <= kLeastDepth;
+}
+
+/// The convex hull of what a body in the region covers, empty if all that is behind the camera;
+/// nothing: some of it is.
 std::optional<std::vector<cv::Point>> hull_of(const Camera& camera, const RegionOfInterest& region,
                                               const Body& body, int dims) {
   std::vector<Eigen::Vector3d> points;
   region.kind == RegionOfInterest::Kind::kPrism ? add_prism(region, dims, points)
                                                 : add_ellipsoid(region, dims, points);
+  if (std::all_of(points.begin(), points.end(),
+                  [&](const auto& point) { return is_behind(camera, point, body); })) {
+    return std::vector<cv::Point>();
+  }
   std::vector<cv::Point2f> pixels, corners;
   for (const Eigen::Vector3d& point : points) {
     if (!project_body(camera, point, body, pixels)) return std::nullopt;

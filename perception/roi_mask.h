@@ -30,7 +30,7 @@ struct RoiMask {
 
 /// Projects regions into the picture: every pixel that a body in one of them may cover is in the
 /// mask, and few others (each region's share of it is convex). Where a region reaches behind the
-/// camera that is the whole picture.
+/// camera that is the whole picture; one that lies behind it has no pixels.
 RoiMask roi_mask(const Camera& camera, const std::vector<RegionOfInterest>& regions,
                  const Body& body, int dims);
 

@@ -12,17 +12,20 @@ namespace anchord {
 struct Sighting {
   enum class Sight {
     kFound,
-    kAbsent,    ///< all of the region was in sight, and the object was not there
-    kHidden,    ///< too little of the region was in sight to say so
-    kDoubtful,  ///< something may be it: nothing is said (thesis section 3.7.3: in case of doubt a
-                ///< detection is not published)
+    kAbsent,     ///< all of the region was in sight, and the object was not there
+    kHidden,     ///< too little of the region was in sight to say so
+    kElsewhere,  ///< a carried camera does not look there, or not yet from where the task says
+    kDoubtful,   ///< something may be it: nothing is said (thesis section 3.7.3: in case of doubt a
+                 ///< detection is not published)
   };
   Sight sight = Sight::kDoubtful;
-  std::optional<Detection> detection;  ///< kFound: in the map frame; names the object
-  cv::Rect box;                        ///< the pixels that were read, of the picture
-  double looked_at = 0;                ///< their share of the picture
-  double visible = 0;  ///< share of the predicted density that was in sight; 1 where found
-  std::string reason;  ///< in words
+  /// kFound; names the object. In the frame of the picture's pose (see in_sensor_frame()), without
+  /// one in the map frame.
+  std::optional<Detection> detection;
+  cv::Rect box;          ///< the pixels that were read, of the picture
+  double looked_at = 0;  ///< their share of the picture
+  double visible = 0;    ///< share of the predicted density that was in sight; 1 where found
+  std::string reason;    ///< in words
 };
 
 }  // namespace anchord

@@ -96,7 +96,8 @@ Detection Verifier::report(const DetectedPerson& person) const {
 Sighting Verifier::look_for_person(const Part& part, const Task& task) {
   Sighting sighting;
   if (!scene_) {
-    sighting.reason = "the empty scene is not known";
+    sighting.reason = settings_.camera.carried ? "people are looked for by cameras that stand still"
+                                               : "the empty scene is not known";
     return sighting;
   }
   const cv::Mat1f foreground = scene_->foreground(part.picture.frame, part.box);

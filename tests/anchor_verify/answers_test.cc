@@ -33,11 +33,14 @@ class AnswersTest : public testing::Test {
 
   /// A picture of the plaza with or without a red ball where the tasks look.
   TimedPicture picture(bool with_ball, Utime utime) const {
+    return picture(camera_, with_ball, utime);
+  }
+  TimedPicture picture(const Camera& camera, bool with_ball, Utime utime) const {
     cv::Mat frame(settings_.camera.height, settings_.camera.width, CV_8UC3,
                   cv::Scalar(120, 125, 130));
     if (with_ball) {
-      const Eigen::Vector2d middle = camera_.project({-10, -8, 0.3});
-      const double radius = std::abs(middle.y() - camera_.project({-10, -8, 0}).y());
+      const Eigen::Vector2d middle = camera.project({-10, -8, 0.3});
+      const double radius = std::abs(middle.y() - camera.project({-10, -8, 0}).y());
       cv::circle(frame, {cvRound(middle.x()), cvRound(middle.y())}, cvRound(radius),
                  cv::Scalar(40, 30, 180), cv::FILLED);
     }
@@ -75,6 +78,32 @@ TEST_F(AnswersTest, TellsWhereItIs) {
   EXPECT_EQ(result.frame->view.value().type, View::Type::kNone);
   ASSERT_EQ(result.frame->detections.size(), 1U);
   EXPECT_EQ(result.frame->detections[0].object, "ball-1");
+}
+
+TEST_F(AnswersTest, OfACarriedCameraTheFrameHasThePose) {
+  DetectorSettings carried = settings_;
+  carried.camera.carried = true;
+  carried.occluders.clear();
+  Verifier verifier(carried, {}, 2);
+  Answers answers("", "camera", tasks_, verifier, *bus_);
+  Pose pose;  // 8 m before the ball, looking along x
+  pose.position = {-18, -8, 1.5};
+  pose.covariance[0] = 0.01;
+  pose.covariance[35] = 0.001;
+  TimedPicture seen = picture(camera_.at(pose), true, kNow);
+  seen.picture.pose = pose;
+  EXPECT_TRUE(tasks_.add(ball_task(1)));
+  EXPECT_TRUE(answers.look(seen));
+  ASSERT_EQ(results().size(), 1U);
+  ASSERT_TRUE(results_[0].frame);
+  EXPECT_EQ(results_[0].frame->pose, pose);
+  const auto& measured =
+      std::get<CartesianMeasurement>(results_[0].frame->detections.at(0).measurement);
+  // Forward and left; the ball is drawn as a circle of whole pixels, 4 cm of ground each.
+  EXPECT_NEAR(measured.position[0], 8, 0.1);
+  EXPECT_NEAR(measured.position[1], 0, 0.05);
+  // And not with the pose's own error, which across is 64 * 0.001 m^2.
+  EXPECT_LT(measured.covariance[3], 0.01);
 }
 
 TEST_F(AnswersTest, FramesComeInOrderOfTime) {

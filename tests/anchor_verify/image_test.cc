@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 
 #include "image_inbox.h"
@@ -11,6 +13,15 @@ namespace {
 
 using Format = ImageMessage::Format;
 const cv::Size kSize(8, 4);
+
+CameraParameters camera(bool carried) {
+  CameraParameters result;
+  result.width = kSize.width;
+  result.height = kSize.height;
+  result.carried = carried;
+  return result;
+}
+const CameraParameters kCamera = camera(false), kCarried = camera(true);
 
 ImageMessage image(Format format, std::size_t bytes, Utime utime = kNow) {
   ImageMessage image;
@@ -67,7 +78,7 @@ TEST(ToPicture, SurvivesDamagedJpegs) {
 }
 
 TEST(ImageInbox, HandsOutTheNewestOnce) {
-  ImageInbox inbox("", "camera", kSize);
+  ImageInbox inbox("", "camera", kCamera);
   EXPECT_FALSE(inbox.wait(0));
   EXPECT_TRUE(inbox.add(image(Format::kBgr8, 96, kNow)));
   EXPECT_TRUE(inbox.add(image(Format::kBgr8, 96, kNow + 1)));
@@ -79,7 +90,7 @@ TEST(ImageInbox, HandsOutTheNewestOnce) {
 }
 
 TEST(ImageInbox, PutsDepthBesideColorOfItsTime) {
-  ImageInbox inbox("", "camera", kSize);
+  ImageInbox inbox("", "camera", kCamera);
   EXPECT_TRUE(inbox.add(image(Format::kDepth16Mm, 64, kNow)));
   EXPECT_TRUE(inbox.add(image(Format::kBgr8, 96, kNow + ImageInbox::kTogether)));
   EXPECT_FALSE(inbox.wait(0)->picture.depth.empty());
@@ -88,16 +99,72 @@ TEST(ImageInbox, PutsDepthBesideColorOfItsTime) {
 }
 
 TEST(ImageInbox, LeavesOtherCamerasAlone) {
-  ImageInbox inbox("amigo", "camera", kSize);
+  ImageInbox inbox("amigo", "camera", kCamera);
   EXPECT_TRUE(inbox.add(image(Format::kBgr8, 96)));  // of no robot
   EXPECT_FALSE(inbox.wait(0));
 }
 
-TEST(ImageInbox, RefusesACameraThatMoves) {
-  ImageInbox inbox("", "camera", kSize);
-  ImageMessage moving = image(Format::kBgr8, 96);
-  moving.pose = Pose{};
-  EXPECT_FALSE(inbox.add(moving));
+ImageMessage posed(Format format, Utime utime, const Pose& pose = {}) {
+  ImageMessage result = image(format, format == Format::kBgr8 ? 96 : 64, utime);
+  result.pose = pose;
+  return result;
+}
+
+std::string refused_field(ImageInbox& inbox, const ImageMessage& image) {
+  const Status status = inbox.add(image);
+  return status ? "" : status.error().field;
+}
+
+TEST(ImageInbox, ACameraThatStandsStillHasNoPose) {
+  ImageInbox inbox("", "camera", kCamera);
+  EXPECT_EQ(refused_field(inbox, posed(Format::kBgr8, kNow)), "pose");
+  EXPECT_FALSE(inbox.wait(0));
+}
+
+TEST(ImageInbox, ACarriedCameraHasAPose) {
+  ImageInbox inbox("", "camera", kCarried);
+  EXPECT_EQ(refused_field(inbox, image(Format::kBgr8, 96)), "pose");
+  EXPECT_EQ(refused_field(inbox, image(Format::kDepth16Mm, 64)), "pose");
+  Pose pose;
+  pose.position = {1, 2, 3};
+  EXPECT_TRUE(inbox.add(posed(Format::kBgr8, kNow, pose)));
+  EXPECT_EQ(inbox.wait(0)->picture.pose, pose);
+}
+
+TEST(ImageInbox, APoseThatCannotBeRightChangesNothing) {
+  ImageInbox inbox("", "camera", kCarried);
+  EXPECT_TRUE(inbox.add(posed(Format::kDepth16Mm, kNow)));
+  EXPECT_TRUE(inbox.add(posed(Format::kBgr8, kNow)));
+  Pose nowhere, turned, unsure;
+  nowhere.position[2] = std::numeric_limits<double>::quiet_NaN();
+  turned.orientation = {0, 0, 0, 0};
+  unsure.covariance[0] = -1;
+  for (const Format format : {Format::kBgr8, Format::kDepth16Mm}) {
+    EXPECT_EQ(refused_field(inbox, posed(format, kNow + 1, nowhere)), "pose.position");
+    EXPECT_EQ(refused_field(inbox, posed(format, kNow + 1, turned)), "pose.orientation");
+    EXPECT_EQ(refused_field(inbox, posed(format, kNow + 1, unsure)), "pose.covariance");
+  }
+  const auto picture = inbox.wait(0);
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->utime, kNow);
+  EXPECT_EQ(picture->picture.pose, Pose{});
+  EXPECT_FALSE(picture->picture.depth.empty());
+}
+
+TEST(ImageInbox, DepthFromAnotherPoseIsOfAnotherPicture) {
+  ImageInbox inbox("", "camera", kCarried);
+  Pose nearly, elsewhere, turned;
+  nearly.position[0] = 0.9 * ImageInbox::kSamePlace;
+  elsewhere.position[0] = 1.1 * ImageInbox::kSamePlace;
+  turned.orientation = {std::cos(0.6 * ImageInbox::kSameDirection), 0, 0,
+                        std::sin(0.6 * ImageInbox::kSameDirection)};
+  EXPECT_TRUE(inbox.add(posed(Format::kDepth16Mm, kNow)));
+  EXPECT_TRUE(inbox.add(posed(Format::kBgr8, kNow, nearly)));
+  EXPECT_FALSE(inbox.wait(0)->picture.depth.empty());
+  EXPECT_TRUE(inbox.add(posed(Format::kBgr8, kNow + 1, elsewhere)));
+  EXPECT_TRUE(inbox.wait(0)->picture.depth.empty());
+  EXPECT_TRUE(inbox.add(posed(Format::kBgr8, kNow + 2, turned)));
+  EXPECT_TRUE(inbox.wait(0)->picture.depth.empty());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "knowledge/configuration.h"
 #include "plaza.h"
@@ -66,6 +67,56 @@ TEST(CameraFile, NamesEveryMistake) {
       return path.starts_with(start);
     })) << start;
   }
+}
+
+/// A camera's file without rotation and translation, with more of the camera and of the file.
+std::string without_place(const std::string& camera, const std::string& more) {
+  return R"({"camera": {"image": [64, 48], "focal": 1, "kappa1": 0, "center": [0, 0], "sx": 1,
+                        "pixel": [1, 1])" +
+         camera + R"(}, "colors": [{"name": "red"}])" + more + "}";
+}
+
+TEST(CameraFile, WithoutAPlaceTheCameraIsCarried) {
+  ConfigurationMistakes mistakes;
+  const auto settings = parse_camera_file(without_place("", ""), "", mistakes);
+  ASSERT_TRUE(settings) << mistakes[0].text();
+  EXPECT_TRUE(settings->camera.carried);
+  EXPECT_FALSE(plaza_settings().camera.carried);
+}
+
+/// The first indented object of a document.
+std::string example_of(const std::filesystem::path& document) {
+  std::ifstream in(document);
+  std::string line, example;
+  while (std::getline(in, line)) {
+    if (example.empty() && line != "    {") continue;
+    example += line + "\n";
+    if (line == "    }") break;
+  }
+  return example;
+}
+
+TEST(CameraFile, TheManualsExampleIsACarriedCamera) {
+  ConfigurationMistakes mistakes;
+  const auto settings = parse_camera_file(example_of(project_file("docs/verification.md")),
+                                          project_file("."), mistakes);
+  ASSERT_TRUE(settings) << mistakes[0].text();
+  EXPECT_TRUE(settings->camera.carried);
+  EXPECT_EQ(settings->verification.appearances.at("cup").colors, std::vector<std::string>{"red"});
+}
+
+TEST(CameraFile, HalfAPlaceIsAMistake) {
+  EXPECT_TRUE(
+      among(mistakes_of(without_place(R"(, "rotation": [0, 0, 0])", "")), "camera.translation"));
+  EXPECT_TRUE(
+      among(mistakes_of(without_place(R"(, "translation": [0, 0, 0])", "")), "camera.rotation"));
+}
+
+TEST(CameraFile, ACarriedCameraHasNoFixedPixels) {
+  EXPECT_EQ(mistakes_of(without_place("", R"(, "occluders": [[[0, 0], [1, 0], [0, 1]]])")),
+            std::vector<std::string>{"occluders"});
+  EXPECT_EQ(mistakes_of(without_place("", R"(, "view": [[0, 0], [1, 0], [0, 1]])")),
+            std::vector<std::string>{"view"});
 }
 
 /// A camera's file with what it needs, and a verification section.

@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "plaza.h"
+#include "poses.h"
 
 namespace anchord {
 namespace {
@@ -96,6 +97,60 @@ RC_GTEST_PROP(Camera, JacobianInSpaceIsTheDerivative, ()) {
 TEST(Camera, SeesNoGroundAboveTheHorizon) {
   // The camera looks down by some 16 degrees: its horizon lies above the picture.
   EXPECT_FALSE(plaza_camera().to_ground({384, -400}).has_value());
+}
+
+/// The pose that the plaza's calibration says: its optical axis is x, left y, up z.
+Pose plaza_pose() {
+  const CameraParameters c = plaza_settings().camera;
+  const Eigen::Matrix3d camera_from_map =
+      (Eigen::AngleAxisd(c.rotation.z(), Eigen::Vector3d::UnitZ()) *
+       Eigen::AngleAxisd(c.rotation.y(), Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(c.rotation.x(), Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  Eigen::Matrix3d map_from_sensor;
+  map_from_sensor << camera_from_map.row(2).transpose(), -camera_from_map.row(0).transpose(),
+      -camera_from_map.row(1).transpose();
+  const Eigen::Quaterniond q(map_from_sensor);
+  Pose pose = pose_of(-camera_from_map.transpose() * c.translation, 0);
+  pose.orientation = {q.w(), q.x(), q.y(), q.z()};
+  return pose;
+}
+
+RC_GTEST_PROP(Camera, CarriedThereIsTheCameraThatStandsThere, ()) {
+  const Camera fixed = plaza_camera();
+  CameraParameters parameters = plaza_settings().camera;
+  parameters.carried = true;
+  parameters.rotation = parameters.translation = Eigen::Vector3d::Zero();
+  const Camera carried = Camera(parameters).at(plaza_pose());
+  const Eigen::Vector3d at(*rc::gen::inRange(0, 768), *rc::gen::inRange(110, 576),
+                           *rc::gen::inRange(5, 40));
+  const SpacePoint a = fixed.at_depth(at.head<2>(), at.z());
+  const SpacePoint b = carried.at_depth(at.head<2>(), at.z());
+  // Rounding of tens of metres and hundreds of pixels.
+  RC_ASSERT((a.position - b.position).norm() < 1e-10);
+  RC_ASSERT((a.jacobian - b.jacobian).norm() < 1e-10);
+  RC_ASSERT((fixed.project(a.position) - carried.project(a.position)).norm() < 1e-9);
+  RC_ASSERT(std::abs(fixed.depth(a.position) - carried.depth(a.position)) < 1e-10);
+  const auto ground = fixed.to_ground(at.head<2>()), same = carried.to_ground(at.head<2>());
+  RC_ASSERT((ground->position - same->position).norm() < 1e-9);
+  RC_ASSERT((ground->jacobian - same->jacobian).norm() < 1e-9);
+}
+
+TEST(Camera, CarriedLooksAlongX) {
+  CameraParameters parameters;
+  parameters.width = 640;
+  parameters.height = 480;
+  parameters.focal = 525;
+  parameters.cx = 319.5;
+  parameters.cy = 239.5;
+  parameters.dpx = parameters.dpy = 1;
+  // At (1, 2, 3), looking along the map's y.
+  const Camera camera = Camera(parameters).at(pose_of({1, 2, 3}, M_PI / 2));
+  EXPECT_NEAR(camera.depth({1, 7, 3}), 5, 1e-12);
+  const auto pixel = [&](double x, double y, double z) { return camera.project({x, y, z}); };
+  EXPECT_LT((pixel(1, 7, 3) - Eigen::Vector2d(319.5, 239.5)).norm(), 1e-9);
+  EXPECT_LT((pixel(0, 7, 3) - Eigen::Vector2d(319.5 - 105, 239.5)).norm(), 1e-9);  // left
+  EXPECT_LT((pixel(1, 7, 4) - Eigen::Vector2d(319.5, 239.5 - 105)).norm(), 1e-9);  // up
 }
 
 TEST(Camera, SeesPeopleUpright) {

@@ -24,6 +24,8 @@ TEST(LookSeries, MissingTakesLooksInARow) {
   LookSeries hidden(2);
   EXPECT_FALSE(hidden.add(saw(Sight::kAbsent)));
   EXPECT_FALSE(hidden.add(saw(Sight::kHidden)));
+  EXPECT_FALSE(hidden.add(saw(Sight::kElsewhere)));  // breaks it, too
+  EXPECT_FALSE(hidden.add(saw(Sight::kHidden)));
   EXPECT_EQ(hidden.add(saw(Sight::kHidden)), Outcome::kOccluded);
   EXPECT_EQ(LookSeries(3).add(saw(Sight::kFound)), Outcome::kFound);
 }

@@ -133,6 +133,15 @@ TEST(RoiMask, IsThePictureWhereTheRegionReachesBehindTheCamera) {
   EXPECT_EQ(roi.box, cv::Rect(0, 0, camera.width(), camera.height()));
 }
 
+TEST(RoiMask, IsEmptyBehindTheCamera) {
+  const Camera camera(plaza_settings().camera);
+  const Eigen::Vector3d eye = camera.at_depth({0, 0}, 0).position;
+  const Eigen::Vector3d ahead = camera.at_depth({384, 288}, 1).position - eye;
+  const Eigen::Vector2d behind = (eye - 20 * ahead).head<2>();
+  const Body body = body_of(kPerson, 2);
+  EXPECT_TRUE(roi_mask(camera, {circle(behind.x(), behind.y(), 0.5)}, body, 2).box.empty());
+}
+
 TEST(Placements, AreInTheRegionsAndSumToOne) {
   RegionOfInterest prism;
   prism.kind = RegionOfInterest::Kind::kPrism;

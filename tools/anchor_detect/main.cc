@@ -3,18 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <opencv2/core/utils/logger.hpp>
 #include <string>
 #include <thread>
 
 #include "outputs.h"
-#include "perception/camera_file.h"
-#include "video.h"
+#include "perception/person_detector.h"
+#include "video_program.h"
 
 namespace anchord {
 namespace {
 
-constexpr int kFailed = 1, kWrongCall = 2;
+constexpr const char* kProgram = "anchor-detect";
 
 struct Options {
   std::string camera_file = "config/plaza.camera.json";
@@ -25,26 +24,22 @@ struct Options {
   Outputs::Settings outputs;
 };
 
-int fail(const Error& error) {
-  std::fprintf(stderr, "anchor-detect: %s\n", error.text().c_str());
-  return kFailed;
-}
-
 int run(Options options) {
-  ConfigurationMistakes mistakes;
-  const auto settings = read_camera_file(options.camera_file, mistakes);
-  for (const auto& mistake : mistakes) {
-    std::fprintf(stderr, "anchor-detect: --camera: %s\n", mistake.text().c_str());
-  }
+  const auto settings = camera_settings(kProgram, options.camera_file);
   if (!settings) return kWrongCall;
+  if (settings->camera.carried) {
+    return refuse_option(kProgram, invalid("--camera",
+                                           "has no rotation and translation: people "
+                                           "are detected by a camera that stands still"));
+  }
 
   options.video.size = {settings->camera.width, settings->camera.height};
   auto video = Video::open(options.video);
-  if (!video) return fail(video.error());
+  if (!video) return fail(kProgram, video.error());
   auto outputs = Outputs::open(options.outputs);
-  if (!outputs) return fail(outputs.error());
+  if (!outputs) return fail(kProgram, outputs.error());
   const std::vector<cv::Mat> background = video->learn(options.learn_s);
-  if (background.empty()) return fail(invalid(options.video.input, "holds no picture"));
+  if (background.empty()) return fail(kProgram, invalid(options.video.input, "holds no picture"));
   PersonDetector detector(*settings, background);
 
   using Clock = std::chrono::steady_clock;
@@ -65,7 +60,7 @@ int run(Options options) {
     busy += Clock::now() - begun;
     detections += people.size();
     const auto done = (*outputs)->write(frames, detector.report(people, picture->utime), people);
-    if (!done) return fail(done.error());
+    if (!done) return fail(kProgram, done.error());
   }
   std::fprintf(stderr, "%d frames, %zu detections, %.1f ms per frame\n", frames, detections,
                frames ? 1e3 * std::chrono::duration<double>(busy).count() / frames : 0.0);
@@ -80,12 +75,8 @@ int main(int argc, char** argv) {
   anchord::Options options;
   std::string url;
   app.add_option("input", options.video.input, "a video file, or a camera's number")->required();
-  app.add_option("--camera", options.camera_file, "the camera's file")->capture_default_str();
-  app.add_option("--fps", options.video.fps, "frames per second of a file; default: as it says")
-      ->check(CLI::Range(0.01, 1000.0));
-  app.add_option("--start-utime", options.video.start_utime,
-                 "time of a file's first frame, microseconds since 1970; default: now")
-      ->check(CLI::Range(anchord::kEarliestUtime, anchord::kLatestUtime));
+  anchord::add_camera_option(app, options.camera_file);
+  anchord::add_video_options(app, options.video);
   app.add_option("--learn", options.learn_s, "seconds from which the empty scene is learnt")
       ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str();
@@ -98,22 +89,11 @@ int main(int argc, char** argv) {
   const auto* lcm =
       app.add_option("--lcm", url, "publish on this LCM URL ('' for the default)")->expected(1);
   app.add_flag("--fast", options.fast, "publish a file as fast as it is worked through");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : anchord::kWrongCall;
-  }
-  if (lcm->count() > 0 || (options.outputs.log.empty() && options.outputs.jsonl.empty() &&
-                           options.outputs.features.empty())) {
-    options.outputs.lcm_url = url;
-  }
-  try {
-    cv::setNumThreads(1);
-    cv::utils::logging::setLogLevel(
-        cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to say
+  return anchord::run_program(anchord::kProgram, app, argc, argv, [&] {
+    if (lcm->count() > 0 || (options.outputs.log.empty() && options.outputs.jsonl.empty() &&
+                             options.outputs.features.empty())) {
+      options.outputs.lcm_url = url;
+    }
     return anchord::run(options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "anchor-detect: %s\n", error.what());
-    return anchord::kFailed;
-  }
+  });
 }

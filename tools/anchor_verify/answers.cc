@@ -9,20 +9,21 @@
 namespace anchord {
 
 VerificationResult Answers::result(const Task& task, VerificationResult::Outcome outcome,
-                                   const Sighting& sighting, Utime utime) {
+                                   const Sighting& sighting, const TimedPicture& picture) {
   VerificationResult result;
   result.task = task.id;
   result.outcome = outcome;
-  result.utime = utime;
+  result.utime = picture.utime;
   result.robot = robot_;
   result.sensor = sensor_;
   if (outcome != VerificationResult::Outcome::kFound) return result;
   Frame frame;
   // Frames of one sensor come in time order: of two objects in one picture the second comes a
   // microsecond later.
-  frame.utime = std::max(utime, last_frame_ + 1);
+  frame.utime = std::max(picture.utime, last_frame_ + 1);
   frame.robot = robot_;
   frame.sensor = sensor_;
+  frame.pose = picture.picture.pose;  // whose error the detection does not have yet
   frame.view = View{};  // none: that nothing else is reported does not mean that it is not there
   frame.detections = {*sighting.detection};
   last_frame_ = result.utime = frame.utime;
@@ -46,7 +47,7 @@ Status Answers::look(const TimedPicture& picture) {
     totals_.found += *outcome == Outcome::kFound;
     totals_.missing += *outcome == Outcome::kMissing;
     totals_.occluded += *outcome == Outcome::kOccluded;
-    const auto bytes = encode(result(task, *outcome, sighting, picture.utime));
+    const auto bytes = encode(result(task, *outcome, sighting, picture));
     if (Status done = bus_.publish(kResultChannel, bytes); !done) return done;
   }
   return Done{};

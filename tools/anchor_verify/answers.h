@@ -37,7 +37,7 @@ class Answers {
 
  private:
   VerificationResult result(const Task& task, VerificationResult::Outcome outcome,
-                            const Sighting& sighting, Utime utime);
+                            const Sighting& sighting, const TimedPicture& picture);
 
   std::string robot_, sensor_;
   TaskList& tasks_;

@@ -1,25 +1,23 @@
 // anchor-verify: looks for what the daemon's verification tasks ask for, in the pictures of one
-// fixed camera, and only where the tasks say.
+// camera, fixed or carried by a robot, and only where the tasks say.
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <opencv2/core/utils/logger.hpp>
 #include <string>
 
 #include "answers.h"
 #include "image_inbox.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/verification_codec.h"
-#include "perception/camera_file.h"
 #include "task_list.h"
-#include "tools/anchor_detect/video.h"
+#include "tools/anchor_detect/video_program.h"
 
 namespace anchord {
 namespace {
 
-constexpr int kFailed = 1, kWrongCall = 2;
+constexpr const char* kProgram = "anchor-verify";
 constexpr int kPollMs = 100;
 constexpr std::size_t kLearnt = 56;  ///< pictures whose median is the empty scene
 
@@ -30,13 +28,9 @@ struct Options {
   std::string lcm_url, robot, sensor;
   Video::Settings video;  ///< no input: images over LCM
   double learn_s = 40;
+  bool learn_given = false;
   int dims = 2;
 };
-
-int fail(const Error& error) {
-  std::fprintf(stderr, "anchor-verify: %s\n", error.text().c_str());
-  return kFailed;
-}
 
 /// SIGTERM and SIGINT, which every thread has blocked, so that they wait to be asked for.
 class EndSignal {
@@ -60,7 +54,7 @@ class EndSignal {
 };
 
 void say(const Error& error, const char* what) {
-  std::fprintf(stderr, "anchor-verify: refused %s: %s\n", what, error.text().c_str());
+  std::fprintf(stderr, "%s: refused %s: %s\n", kProgram, what, error.text().c_str());
 }
 
 void listen(LcmBus& bus, TaskList& tasks) {
@@ -122,26 +116,31 @@ Status serve(ImageInbox& inbox, const EndSignal& end, Answers& answers) {
 
 int run(Options options) {
   const EndSignal end;  // before there are threads
-  ConfigurationMistakes mistakes;
-  const auto settings = read_camera_file(options.camera_file, mistakes);
-  for (const auto& mistake : mistakes) {
-    std::fprintf(stderr, "anchor-verify: --camera: %s\n", mistake.text().c_str());
-  }
+  const auto settings = camera_settings(kProgram, options.camera_file);
   if (!settings) return kWrongCall;
+  if (settings->camera.carried) {
+    if (!options.video.input.empty()) {
+      return refuse_option(kProgram, invalid("--video", "has no poses, and the camera is carried"));
+    }
+    if (options.learn_given && options.learn_s > 0) {
+      return refuse_option(kProgram,
+                           invalid("--learn", "needs a camera that stands still; 0 says so"));
+    }
+    options.learn_s = 0;
+  }
   if (options.sensor.empty()) options.sensor = settings->sensor;
-  const cv::Size size(settings->camera.width, settings->camera.height);
 
   std::optional<Video> video;
   if (!options.video.input.empty()) {
-    options.video.size = size;
+    options.video.size = {settings->camera.width, settings->camera.height};
     auto opened = Video::open(options.video);
-    if (!opened) return fail(opened.error());
+    if (!opened) return fail(kProgram, opened.error());
     video = std::move(*opened);
   }
   auto bus = LcmBus::open(options.lcm_url);
-  if (!bus) return fail(bus.error());
+  if (!bus) return fail(kProgram, bus.error());
   TaskList tasks(options.robot, options.sensor, options.dims, settings->verification.looks);
-  ImageInbox inbox(options.robot, options.sensor, size);
+  ImageInbox inbox(options.robot, options.sensor, settings->camera);
   listen(**bus, tasks);
   if (!video) listen(**bus, inbox);
   (*bus)->start();
@@ -155,7 +154,7 @@ int run(Options options) {
   Answers answers(options.robot, options.sensor, tasks, verifier, **bus);
   const Status done = video ? play(*video, end, answers) : serve(inbox, end, answers);
   (*bus)->stop();
-  if (!done) return fail(done.error());
+  if (!done) return fail(kProgram, done.error());
   const Answers::Totals& t = answers.totals();
   const double looks = std::max<double>(1, static_cast<double>(t.looks));
   std::fprintf(stderr,
@@ -170,20 +169,19 @@ int run(Options options) {
 }  // namespace anchord
 
 int main(int argc, char** argv) {
-  CLI::App app{"Looks for the objects of verification tasks in a fixed camera's pictures."};
+  CLI::App app{
+      "Looks for the objects of verification tasks in the pictures of a camera, fixed or carried."};
   anchord::Options options;
-  app.add_option("--camera", options.camera_file, "the camera's file")->capture_default_str();
+  anchord::add_camera_option(app, options.camera_file);
   app.add_option("--video", options.video.input,
                  "a video file, or a camera's number; default: images over LCM");
-  app.add_option("--fps", options.video.fps, "frames per second of a file; default: as it says")
-      ->check(CLI::Range(0.01, 1000.0));
-  app.add_option("--start-utime", options.video.start_utime,
-                 "time of a file's first frame, microseconds since 1970; default: now")
-      ->check(CLI::Range(anchord::kEarliestUtime, anchord::kLatestUtime));
-  app.add_option("--learn", options.learn_s,
-                 "seconds from which the empty scene is learnt; 0: people are not looked for")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
+  anchord::add_video_options(app, options.video);
+  const auto* learn =
+      app.add_option("--learn", options.learn_s,
+                     "seconds from which the empty scene is learnt; 0: people are not looked for, "
+                     "as always by a carried camera")
+          ->check(CLI::Range(0.0, 3600.0))
+          ->capture_default_str();
   app.add_option("--dimensions", options.dims, "of the world: 2 or 3")
       ->check(CLI::IsMember({2, 3}))
       ->capture_default_str();
@@ -191,18 +189,8 @@ int main(int argc, char** argv) {
   app.add_option("--sensor", options.sensor,
                  "the sensor's name in the tasks; default: the camera file's");
   app.add_option("--lcm", options.lcm_url, "LCM URL; default: LCM's own with ttl 0");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : anchord::kWrongCall;
-  }
-  try {
-    cv::setNumThreads(1);
-    cv::utils::logging::setLogLevel(
-        cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to say
+  return anchord::run_program(anchord::kProgram, app, argc, argv, [&] {
+    options.learn_given = learn->count() > 0;
     return anchord::run(options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "anchor-verify: %s\n", error.what());
-    return anchord::kFailed;
-  }
+  });
 }
