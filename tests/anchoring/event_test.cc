@@ -187,7 +187,7 @@ TEST(Events, PlacedWhereTheRobotIsRestsThere) {
   ASSERT_GT(position_of(find(world, name).shown()).velocity.x(), 0.5);
   apply(world, grasped(0.8, name));
   apply(world, event(Kind::kPlaced, 0.8, name));
-  const Kinematic& placed = position_of(find(world, name).shown());
+  const Kinematic placed = position_of(find(world, name).shown());
   EXPECT_EQ(placed.velocity.norm(), 0);
   EXPECT_NEAR(placed.vv(0, 0), 0.3, kExactly);
   EXPECT_NEAR(placed.position.x(), 1.8, 0.05);  // the filter's lag

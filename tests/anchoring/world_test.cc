@@ -194,7 +194,7 @@ TEST(World, YawIsCarriedThroughInTheMap) {
   Frame f = frame(0, {z});
   f.pose = Pose{{1, 1, 0}, {std::sqrt(0.5), 0, 0, std::sqrt(0.5)}, {}};  // a quarter turn left
   apply(world, {f, frame(1, {})});
-  const Leaf& leaf = objects(world)[0].versions[0].leaf;
+  const Leaf leaf = objects(world)[0].versions[0].leaf;
   ASSERT_TRUE(leaf.yaw);
   EXPECT_NEAR(*leaf.yaw, 0.5 + std::acos(0.0), kRounding);
   const Gaussian where = objects(world)[0].moments(*world.background());

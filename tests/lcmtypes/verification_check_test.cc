@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <anchord/event_t.hpp>
 #include <anchord/image_t.hpp>
@@ -8,7 +7,6 @@
 #include <anchord/verify_trigger_t.hpp>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "lcmtypes/codec.h"
 #include "lcmtypes/event_codec.h"
@@ -16,135 +14,15 @@
 #include "lcmtypes/names.h"
 #include "lcmtypes/verification_codec.h"
 #include "tests/lcmtypes/sample_verification.h"
+#include "tests/lcmtypes/wire_bytes.h"
 
 namespace anchord {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-using Span = std::span<const std::uint8_t>;
-
-/// A type of message: a valid one, and its decoder followed by its encoder.
-struct Codec {
-  std::string name;
-  Bytes valid;
-  std::function<Result<Bytes>(Span)> reencode;
-};
-
-template <typename Message>
-Codec codec(std::string name, Bytes valid, Result<Message> (*decoder)(Span)) {
-  const auto reencode = [decoder](Span bytes) -> Result<Bytes> {
-    const auto message = decoder(bytes);
-    if (!message) return message.error();
-    if constexpr (std::is_same_v<Message, EventMessage>) {
-      return encode(message->event, message->seq);
-    } else {
-      return encode(*message);
-    }
-  };
-  return {std::move(name), std::move(valid), reencode};
-}
-
-std::vector<Codec> codecs() {
-  return {codec("event", encode(testing::full_event(), 1), decode_event),
-          codec("trigger", encode(testing::full_trigger()), decode_trigger),
-          codec("cancelling", encode(testing::cancelling()), decode_trigger),
-          codec("task", encode(testing::full_task()), decode_task),
-          codec("found", encode(testing::full_result()), decode_result),
-          codec("missing", encode(testing::missing_result()), decode_result),
-          codec("pose", encode(testing::full_pose()), decode_pose),
-          codec("image", encode(testing::full_image()), decode_image)};
-}
-
-class VerificationCheck : public ::testing::TestWithParam<Codec> {
- protected:
-  /// Refused, or a message that can be stored and read again.
-  static void expect_refused_or_sound(const Bytes& bytes) {
-    const Result<Bytes> again = GetParam().reencode(bytes);
-    if (!again) return;
-    const Result<Bytes> reread = GetParam().reencode(*again);
-    ASSERT_TRUE(reread.ok()) << reread.error().text();
-    EXPECT_EQ(*reread, *again);
-  }
-};
-
-/// The big-endian number in 4 bytes, wherever it stands in the message.
-void overwrite(Bytes& bytes, std::size_t at, std::uint32_t value) {
-  for (int i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
-}
-
-TEST_P(VerificationCheck, GivesBackAFullMessage) {
-  const Result<Bytes> again = GetParam().reencode(GetParam().valid);
-  ASSERT_TRUE(again.ok()) << again.error().text();
-  EXPECT_EQ(*again, GetParam().valid);
-}
-
-TEST_P(VerificationCheck, RefusesEveryTruncation) {
-  const Bytes& bytes = GetParam().valid;
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_FALSE(GetParam().reencode({bytes.data(), size}).ok()) << size;
-  }
-}
-
-TEST_P(VerificationCheck, RefusesTrailingBytesAndOtherTypes) {
-  Bytes bytes = GetParam().valid;
-  bytes.push_back(0);
-  EXPECT_FALSE(GetParam().reencode(bytes).ok());
-  for (const Codec& other : codecs()) {
-    const bool same = std::equal(bytes.begin(), bytes.begin() + 8, other.valid.begin());
-    EXPECT_EQ(GetParam().reencode(other.valid).ok(), same) << other.name;
-  }
-}
-
-TEST_P(VerificationCheck, SurvivesEveryBitFlip) {
-  const Bytes& bytes = GetParam().valid;
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-    Bytes flipped = bytes;
-    flipped[bit / 8] ^= static_cast<std::uint8_t>(1u << (bit % 8));
-    expect_refused_or_sound(flipped);
-  }
-}
-
-TEST_P(VerificationCheck, SurvivesEveryLieInFourBytes) {
-  const Bytes& bytes = GetParam().valid;
-  for (std::size_t at = 0; at + 4 <= bytes.size(); ++at) {
-    for (const std::uint32_t lie : {0u, 1u, 0x100u, 0xffffu, 0x7fffffffu, 0x80000000u, ~0u}) {
-      Bytes changed = bytes;
-      overwrite(changed, at, lie);
-      expect_refused_or_sound(changed);
-    }
-  }
-}
-
-TEST_P(VerificationCheck, SurvivesRandomBytes) {
-  const Bytes& valid = GetParam().valid;
-  EXPECT_TRUE(rc::check("random bytes behind a valid start", [&] {
-    const auto kept = *rc::gen::inRange<std::size_t>(0, valid.size());
-    const auto tail = *rc::gen::arbitrary<Bytes>();
-    Bytes bytes(valid.begin(), valid.begin() + static_cast<long>(kept));
-    bytes.insert(bytes.end(), tail.begin(), tail.end());
-    expect_refused_or_sound(bytes);
-    RC_ASSERT(!::testing::Test::HasFailure());
-  }));
-}
-
-INSTANTIATE_TEST_SUITE_P(Each, VerificationCheck, ::testing::ValuesIn(codecs()),
-                         [](const auto& one) { return one.param.name; });
-
-template <typename Message>
-std::string field_of(Result<Message> (*decoder)(Span), const Bytes& bytes) {
-  const Result<Message> message = decoder(bytes);
-  return message ? "accepted" : message.error().field;
-}
-
-/// A valid message as lcm-gen has it, changed, and the field that is refused then.
-template <typename Wire, typename Message>
-std::string field_with(Result<Message> (*decoder)(Span), const Bytes& valid,
-                       const std::function<void(Wire&)>& change) {
-  Wire message;
-  EXPECT_GT(message.decode(valid.data(), 0, static_cast<int>(valid.size())), 0);
-  change(message);
-  return field_of(decoder, encode_message(message));
-}
+using testing::Bytes;
+using testing::field_of;
+using testing::field_with;
+using testing::overwrite;
 
 std::string event_with(const std::function<void(event_t&)>& change) {
   return field_with<event_t>(decode_event, encode(testing::full_event(), 1), change);

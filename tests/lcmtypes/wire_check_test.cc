@@ -1,70 +1,24 @@
-#include "lcmtypes/wire_check.h"
-
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <anchord/frame_t.hpp>
 #include <anchord/query_t.hpp>
 #include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "lcmtypes/checked_decode.h"
 #include "lcmtypes/codec.h"
 #include "lcmtypes/names.h"
 #include "tests/lcmtypes/sample_frames.h"
+#include "tests/lcmtypes/wire_bytes.h"
 
 namespace anchord {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
-/// Refused, or a frame that can be stored and read again.
-void expect_refused_or_sound(const Bytes& bytes) {
-  const Result<FrameMessage> message = decode_frame(bytes);
-  if (!message) return;
-  const Bytes again = encode(message->frame, message->seq);
-  const Result<FrameMessage> reread = decode_frame(again);
-  ASSERT_TRUE(reread.ok()) << reread.error().text();
-  EXPECT_EQ(encode(reread->frame, reread->seq), again);
-}
-
-std::string field_of(const Bytes& bytes) {
-  const Result<FrameMessage> message = decode_frame(bytes);
-  return message ? "accepted" : message.error().field;
-}
-
-/// The big-endian number in 4 bytes, wherever it stands in the message.
-void overwrite(Bytes& bytes, std::size_t at, std::uint32_t value) {
-  for (int i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
-}
-
-TEST(WireCheck, RefusesEveryTruncation) {
-  const Bytes bytes = encode(testing::full_frame(), 1);
-  ASSERT_TRUE(check_frame(bytes).ok());
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_FALSE(decode_frame({bytes.data(), size}).ok()) << size;
-  }
-}
-
-TEST(WireCheck, SurvivesEveryBitFlip) {
-  const Bytes bytes = encode(testing::full_frame(), 1);
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-    Bytes flipped = bytes;
-    flipped[bit / 8] ^= static_cast<std::uint8_t>(1u << (bit % 8));
-    expect_refused_or_sound(flipped);
-  }
-}
-
-TEST(WireCheck, SurvivesEveryLieInFourBytes) {
-  const Bytes bytes = encode(testing::full_frame(), 1);
-  for (std::size_t at = 0; at + 4 <= bytes.size(); ++at) {
-    for (const std::uint32_t lie : {0u, 1u, 0x100u, 0xffffu, 0x7fffffffu, 0x80000000u, ~0u}) {
-      Bytes changed = bytes;
-      overwrite(changed, at, lie);
-      expect_refused_or_sound(changed);
-    }
-  }
-}
+using testing::Bytes;
+using testing::field_of;
+using testing::overwrite;
 
 TEST(WireCheck, NamesTheCountThatLies) {
   Frame frame;
@@ -89,17 +43,9 @@ TEST(WireCheck, NamesTheCountThatLies) {
     for (const std::uint32_t lie : {3u, 0xffffu, 0x7fffffffu, 0x80000000u, ~0u}) {
       Bytes changed = bytes;
       overwrite(changed, at, lie);
-      EXPECT_EQ(field_of(changed), field) << lie;
+      EXPECT_EQ(field_of(decode_frame, changed), field) << lie;
     }
   }
-}
-
-TEST(WireCheck, RefusesTrailingBytesAndOtherTypes) {
-  Bytes bytes = encode(testing::full_frame(), 1);
-  EXPECT_FALSE(check_query(bytes).ok());
-  bytes.push_back(0);
-  EXPECT_FALSE(check_frame(bytes).ok());
-  EXPECT_FALSE(check_frame({}).ok());
 }
 
 TEST(WireCheck, RefusesWhatIsOverALimit) {
@@ -121,12 +67,12 @@ TEST(WireCheck, RefusesWhatIsOverALimit) {
     attributes.push_back(
         {std::to_string(i), i == 0 ? decltype(AttributeReport::value)(symbols) : ScalarReport{}});
   }
-  EXPECT_EQ(field_of(encode(frame, 1)), "accepted");
+  EXPECT_EQ(field_of(decode_frame, encode(frame, 1)), "accepted");
 
   const auto with = [&](const std::function<void(Frame&)>& change) {
     Frame changed = frame;
     change(changed);
-    return field_of(encode(changed, 1));
+    return field_of(decode_frame, encode(changed, 1));
   };
   EXPECT_EQ(with([](Frame& f) { f.view->points.emplace_back(); }), "view.num_points");
   EXPECT_EQ(with([](Frame& f) { f.detections.push_back(f.detections.back()); }), "num_detections");
@@ -151,11 +97,7 @@ TEST(WireCheck, RefusesWhatIsOverALimit) {
 
 TEST(WireCheck, RefusesUnknownEnumeratorsAndBooleans) {
   const auto with = [](const std::function<void(frame_t&)>& change) {
-    frame_t message{};
-    const Bytes bytes = encode(testing::full_frame(), 1);
-    message.decode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    change(message);
-    return field_of(encode_message(message));
+    return testing::field_with<frame_t>(decode_frame, encode(testing::full_frame(), 1), change);
   };
   EXPECT_EQ(with([](frame_t&) {}), "accepted");
   EXPECT_EQ(with([](frame_t& f) { f.view.type = 5; }), "view.type");
@@ -182,25 +124,13 @@ TEST(WireCheck, RefusesTextThatLcmMisreads) {
   const std::size_t robot = 24;  // after fingerprint, utime and seq
   Bytes changed = bytes;
   overwrite(changed, robot, 0);  // lcm-gen's decoder takes it for a length of -1
-  EXPECT_EQ(field_of(changed), "robot");
+  EXPECT_EQ(field_of(decode_frame, changed), "robot");
   changed = bytes;
   changed[robot + 4 + frame.robot.size()] = 'x';
-  EXPECT_EQ(field_of(changed), "robot");
+  EXPECT_EQ(field_of(decode_frame, changed), "robot");
   changed = bytes;
   changed[robot + 5] = 0;  // a NUL inside
-  EXPECT_EQ(field_of(changed), "robot");
-}
-
-TEST(WireCheck, SurvivesRandomBytes) {
-  const Bytes valid = encode(testing::full_frame(), 1);
-  EXPECT_TRUE(rc::check("random bytes behind a valid start", [&] {
-    const auto kept = *rc::gen::inRange<std::size_t>(0, valid.size());
-    const auto tail = *rc::gen::arbitrary<Bytes>();
-    Bytes bytes(valid.begin(), valid.begin() + static_cast<long>(kept));
-    bytes.insert(bytes.end(), tail.begin(), tail.end());
-    expect_refused_or_sound(bytes);
-    RC_ASSERT(!::testing::Test::HasFailure());
-  }));
+  EXPECT_EQ(field_of(decode_frame, changed), "robot");
 }
 
 TEST(WireCheck, HoldsAQueryAgainstItsBytes) {
@@ -208,9 +138,6 @@ TEST(WireCheck, HoldsAQueryAgainstItsBytes) {
   query.id = 7;
   query.target = "/v1/where?class=cup";
   const Bytes bytes = encode_message(query);
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_FALSE(decode_query({bytes.data(), size}).ok()) << size;
-  }
   for (std::size_t at = 16; at < bytes.size(); ++at) {
     Bytes changed = bytes;
     changed[at] = 0xff;
