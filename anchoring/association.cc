@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anchoring/cluster.h"
+#include "anchoring/reduction.h"
 #include "core/log_probability.h"
 #include "mht/ranked_associations.h"
 
@@ -15,7 +16,7 @@ constexpr int kUnmade = -2;  // a child leaf that no hypothesis has asked for ye
 
 /// Merging makes room: up to this many times `max` associations are looked at before the best `max`
 /// are kept, as long as one more carries more than a thousandth of the weight so far.
-constexpr std::size_t kLookAhead = 4;
+constexpr std::size_t kLookAhead = 2;
 constexpr double kWorthLookingAhead = -6.907755278982137;  // ln 0.001
 
 /// The clusters that detections tie together, as one: anchors in order, leaves numbered through.
@@ -210,7 +211,10 @@ std::vector<std::shared_ptr<const Cluster>> associate(
       break;
   }
   merge_equal(joint.hypotheses);
-  if (limits.scan_depth > 0) merge_alike(joint, background);
+  if (limits.scan_depth > 0) {
+    merge_alike(joint, background);
+    merge_nearest(joint, limits.max_hypotheses, background);
+  }
   prune(joint.hypotheses, limits.max_hypotheses, limits.min_weight);
   return split(joint, background);
 }

@@ -13,8 +13,8 @@
 
 namespace anchord {
 
-/// An object of at least this probability is believed in: it gets a name, and stands in a best world
-/// of whose leaf this is the r.
+/// An object of at least this probability is believed in: it gets a name, and stands in a best
+/// world of whose leaf this is the r.
 inline constexpr double kBelievedIn = 0.5;
 
 /// One object that is believed to exist, whichever hypothesis leads: its identity for life.

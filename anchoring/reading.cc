@@ -208,7 +208,8 @@ std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double mi
         object.p += version.probability * version.leaf.existence;
       object.p = std::min(object.p, 1.0);  // sums of rounded weights
       object.best = cluster->hypotheses[cluster->leading].leaf[a];
-      object.in_best = object.best >= 0 && object.versions[object.best].leaf.existence >= kBelievedIn;
+      object.in_best =
+          object.best >= 0 && object.versions[object.best].leaf.existence >= kBelievedIn;
       if (object.p >= min_p && object.p > 0) out.push_back(std::move(object));
     }
   std::sort(out.begin(), out.end(), [](const ObjectBelief& a, const ObjectBelief& b) {

@@ -24,7 +24,7 @@ constexpr int kSeeds = 23, kFewSeeds = 3;
 std::vector<anchord::bench::Track> best_world(const anchord::World& world) {
   const anchord::Belief& belief = *world.belief();
   std::vector<anchord::bench::Track> tracks;
-  for (const auto& object : anchord::read_objects(belief, belief.utime, 0.5, *world.background())) {
+  for (const auto& object : anchord::read_objects(belief, belief.utime, 0, *world.background())) {
     if (!object.in_best) continue;
     const auto& position = anchord::position_of(object.versions[object.best].leaf).position;
     tracks.push_back({object.anchor->birth, position.head<2>()});

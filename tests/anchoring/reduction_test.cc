@@ -1,0 +1,147 @@
+#include "anchoring/reduction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "anchoring/world.h"
+#include "tests/anchoring/small_world.h"
+
+namespace anchord {
+namespace {
+
+constexpr int kNone = Hypothesis::kNoLeaf;
+constexpr double kRounding = 1e-12;
+
+Leaf at(double x, double existence = 1) {
+  Leaf leaf;
+  leaf.existence = existence;
+  leaf.classes = {1};
+  Kinematic density;
+  density.position.x() = x;
+  density.pp.diagonal().setConstant(0.01);
+  leaf.models.push_back({1, density});
+  return leaf;
+}
+
+struct Case {
+  double weight;
+  std::vector<int> leaf;
+};
+
+Cluster cluster_of(const std::vector<std::vector<Leaf>>& anchors, const std::vector<Case>& cases) {
+  Cluster cluster;
+  for (const auto& leaves : anchors) {
+    AnchorTree& tree = cluster.anchors.emplace_back();
+    tree.anchor =
+        std::make_shared<const Anchor>(Anchor{cluster.anchors.size(), "", "", std::nullopt});
+    for (const Leaf& leaf : leaves) tree.leaves.push_back(std::make_shared<const Leaf>(leaf));
+  }
+  for (const Case& c : cases) {
+    Hypothesis h{std::log(c.weight), {}};
+    h.leaf.assign(c.leaf.begin(), c.leaf.end());
+    cluster.hypotheses.push_back(std::move(h));
+  }
+  normalise(cluster.hypotheses);
+  return cluster;
+}
+
+/// Of one anchor over all hypotheses: P(it exists), and then the mean and variance of x.
+struct Marginal {
+  double p = 0, mean = 0, variance = 0;
+};
+
+Marginal marginal_of(const Cluster& cluster, std::size_t anchor) {
+  Marginal out;
+  double square = 0;
+  for (const Hypothesis& h : cluster.hypotheses) {
+    if (h.leaf[anchor] == kNone) continue;
+    const Leaf& leaf = *cluster.anchors[anchor].leaves[h.leaf[anchor]];
+    const auto& density = std::get<Kinematic>(leaf.models[0].density);
+    const double w = std::exp(h.log_weight) * leaf.existence, x = density.position.x();
+    out.p += w;
+    out.mean += w * x;
+    square += w * (x * x + density.pp(0, 0));
+  }
+  out.mean /= out.p;
+  out.variance = square / out.p - out.mean * out.mean;
+  return out;
+}
+
+class Reduction : public ::testing::Test {
+ protected:
+  const std::shared_ptr<const Background> background_ = World(small_world()).background();
+};
+
+TEST_F(Reduction, LeavesWhatHasRoomAsItIs) {
+  Cluster cluster = cluster_of({{at(0), at(0.001)}}, {{0.6, {0}}, {0.4, {1}}});
+  merge_nearest(cluster, 2, *background_);
+  EXPECT_EQ(cluster.hypotheses.size(), 2u);
+  merge_nearest(cluster, 0, *background_);
+  EXPECT_EQ(cluster.hypotheses.size(), 2u) << "no bound";
+}
+
+TEST_F(Reduction, LikeHypothesesBecomeOneBeforeRareOnesGo) {
+  // The exchange of the two objects is rare, but it is nothing like the others.
+  Cluster cluster = cluster_of({{at(0), at(0.02), at(5)}, {at(5), at(0)}},
+                               {{0.6, {0, 0}}, {0.35, {1, 0}}, {0.05, {2, 1}}});
+  merge_nearest(cluster, 2, *background_);
+  ASSERT_EQ(cluster.hypotheses.size(), 2u);
+  EXPECT_NEAR(std::exp(cluster.hypotheses[0].log_weight), 0.95, kRounding);
+  EXPECT_NEAR(std::exp(cluster.hypotheses[1].log_weight), 0.05, kRounding);
+  EXPECT_EQ(cluster.hypotheses[1].leaf[0], 2);
+  EXPECT_EQ(cluster.hypotheses[1].leaf[1], 1);
+}
+
+TEST_F(Reduction, AlikeIsMeantOfAllAnchorsAtOnce) {
+  // Each anchor alone is in two places of the same kind; only together they differ.
+  Cluster cluster = cluster_of({{at(0), at(1)}, {at(0), at(1), at(1.01)}},
+                               {{0.4, {0, 1}}, {0.35, {1, 0}}, {0.25, {0, 2}}});
+  merge_nearest(cluster, 2, *background_);
+  ASSERT_EQ(cluster.hypotheses.size(), 2u);
+  EXPECT_NEAR(std::exp(cluster.hypotheses[0].log_weight), 0.65, kRounding);
+  EXPECT_NEAR(std::exp(cluster.hypotheses[1].log_weight), 0.35, kRounding);
+}
+
+TEST_F(Reduction, WhatIsFarFromAllOthersIsNotForcedIntoThem) {
+  Cluster cluster = cluster_of({{at(0), at(5), at(10)}}, {{0.5, {0}}, {0.3, {1}}, {0.2, {2}}});
+  merge_nearest(cluster, 1, *background_);
+  EXPECT_EQ(cluster.hypotheses.size(), 3u);
+}
+
+TEST_F(Reduction, WhatWasShownStaysShown) {
+  Cluster cluster = cluster_of({{at(0), at(0.02), at(0.04)}}, {{0.5, {0}}, {0.3, {1}}, {0.2, {2}}});
+  cluster.anchors[0].shown = 2;
+  merge_nearest(cluster, 1, *background_);
+  ASSERT_EQ(cluster.hypotheses.size(), 1u);
+  EXPECT_EQ(cluster.anchors[0].shown, cluster.hypotheses[0].leaf[0]);
+}
+
+TEST_F(Reduction, WhatIsSaidOfEachAnchorAloneStaysAsItIs) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<std::vector<Leaf>> anchors(3);
+    for (auto& leaves : anchors)
+      for (int l = 0; l < 6; ++l) leaves.push_back(at(0.3 * uniform(random), uniform(random)));
+    std::vector<Case> cases;
+    for (int h = 0; h < 30; ++h) {
+      Case& c = cases.emplace_back(Case{uniform(random), {}});
+      for (int a = 0; a < 3; ++a) c.leaf.push_back(static_cast<int>(7 * uniform(random)) - 1);
+    }
+    Cluster cluster = cluster_of(anchors, cases);
+    const Cluster before = cluster;
+    merge_nearest(cluster, 5, *background_);
+    EXPECT_LT(cluster.hypotheses.size(), before.hypotheses.size());
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Marginal was = marginal_of(before, a), is = marginal_of(cluster, a);
+      EXPECT_NEAR(is.p, was.p, kRounding);
+      EXPECT_NEAR(is.mean, was.mean, kRounding);
+      EXPECT_NEAR(is.variance, was.variance, kRounding);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace anchord
