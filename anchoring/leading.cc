@@ -11,6 +11,9 @@ namespace {
 /// How many times what the world with the names kept weighs another must weigh to be shown.
 /// Chosen on simulated crowds: from 3 to 30 it hardly matters.
 constexpr double kClearly = 2.302585092994046;  // ln 10
+/// The same where an object goes by another name, nobody else by its own: the name that is kept has
+/// less than half of the probability then, and many look only at what has more.
+constexpr double kClearlyTwin = 1.0986122886681098;  // ln 3
 /// Positions closer than this, in standard deviations of their difference, are the same spot.
 constexpr double kSameSpot = 1;
 class Names {
@@ -26,6 +29,13 @@ class Names {
       if (stands(a, h.leaf[a]) ? apart(leaf(a, shown), leaf(a, h.leaf[a])) : taken(h, a))
         return false;
     }
+    return true;
+  }
+
+  /// Whether two hypotheses have the same objects.
+  bool same_stand(const Hypothesis& g, const Hypothesis& h) const {
+    for (std::size_t a = 0; a < h.leaf.size(); ++a)
+      if (stands(a, g.leaf[a]) != stands(a, h.leaf[a])) return false;
     return true;
   }
 
@@ -78,7 +88,10 @@ int leading(const Cluster& cluster, int dims) {
   for (std::size_t h = 1; h < cluster.hypotheses.size(); ++h) {
     const Hypothesis& other = cluster.hypotheses[h];
     if (other.log_weight + kClearly < best.log_weight) break;
-    if (names.kept_by(other) && names.only_differ(best, other)) return static_cast<int>(h);
+    const double clearly = names.same_stand(best, other) ? kClearly : kClearlyTwin;
+    if (other.log_weight + clearly >= best.log_weight && names.kept_by(other) &&
+        names.only_differ(best, other))
+      return static_cast<int>(h);
   }
   return 0;
 }

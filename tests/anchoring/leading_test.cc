@@ -78,8 +78,8 @@ TEST(Leading, OneObjectUnderTwoNamesKeepsTheNameItWasShownUnder) {
     return cluster.leading;
   };
   EXPECT_EQ(twins(0.6), 1);
-  EXPECT_EQ(twins(0.9), 1);
-  EXPECT_EQ(twins(0.92), 0);
+  EXPECT_EQ(twins(0.74), 1);
+  EXPECT_EQ(twins(0.76), 0) << "three times as probable";
 }
 
 TEST(Leading, AnObjectThatIsGoneIsNotItsNeighbour) {
