@@ -39,9 +39,9 @@ std::vector<int> merged(AnchorTree& tree, const std::vector<double>& probability
     const Leaf& leaf = *tree.leaves[l];
     const auto into = std::find_if(kept.begin(), kept.end(), [&](const Kept& k) {
       const Leaf& head = *tree.leaves[k.head];
-      const double d = difference(head, leaf, background);
-      return d <= kAlike &&
-             (probability[l] * d * d <= kNegligibleMerge || head.recent == leaf.recent);
+      const double rare = std::sqrt(kNegligibleMerge / probability[l]);
+      const double most = rare < kAlike && head.recent != leaf.recent ? rare : kAlike;
+      return difference(head, leaf, background, most) < most;
     });
     number[l] = static_cast<int>(into - kept.begin());
     if (into == kept.end()) {

@@ -89,8 +89,9 @@ Leaf merge(double weight_a, const Leaf& a, double weight_b, const Leaf& b,
 
 /// How much two versions of an anchor at the same time differ: about the total variation between
 /// what they say (existence, class, attributes, behaviour, position), 0 to 1; 1 where the models
-/// are not comparable. Densities far from alike count as 1.
-double difference(const Leaf& a, const Leaf& b, const Background& background);
+/// are not comparable. Densities far from alike count as 1. Of what is at least `most`, only that
+/// it is.
+double difference(const Leaf& a, const Leaf& b, const Background& background, double most = 1);
 
 /// Moves the densities to the models of the most probable class, if that has changed.
 void follow_class(Leaf& leaf, const Background& background);

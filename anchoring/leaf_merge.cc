@@ -58,8 +58,8 @@ void take_over(ModelState& to, const ModelState& from, const BehaviourModel& mod
 
 /// About the total variation between two Gaussians over position and velocity, axis by axis: for
 /// means d standard deviations apart 0.4 d (2 Phi(d / 2) - 1 for small d), for variances a quarter
-/// of their relative difference.
-double difference(const Kinematic& a, const Kinematic& b, int dims) {
+/// of their relative difference. Once it is `most` the rest does not count.
+double difference(const Kinematic& a, const Kinematic& b, int dims, double most) {
   const auto of = [](double gap, double variance_a, double variance_b) {
     const double sum = variance_a + variance_b;
     return sum > 0 ? 0.4 * std::abs(gap) / std::sqrt(0.5 * sum) +
@@ -67,9 +67,10 @@ double difference(const Kinematic& a, const Kinematic& b, int dims) {
                    : 0.0;
   };
   double sum = 0;
-  for (int i = 0; i < dims; ++i)
-    sum += of(a.position[i] - b.position[i], a.pp(i, i), b.pp(i, i)) +
-           of(a.velocity[i] - b.velocity[i], a.vv(i, i), b.vv(i, i));
+  for (int i = 0; i < dims && sum < most; ++i)
+    sum += of(a.position[i] - b.position[i], a.pp(i, i), b.pp(i, i));
+  for (int i = 0; i < dims && sum < most; ++i)
+    sum += of(a.velocity[i] - b.velocity[i], a.vv(i, i), b.vv(i, i));
   return std::min(sum, 1.0);
 }
 
@@ -143,12 +144,12 @@ Leaf merge(double weight_a, const Leaf& a, double weight_b, const Leaf& b,
   return out;
 }
 
-double difference(const Leaf& a, const Leaf& b, const Background& background) {
+double difference(const Leaf& a, const Leaf& b, const Background& background, double most) {
   if (a.model_class != b.model_class || a.utime != b.utime || a.held != b.held ||
       a.models.size() != b.models.size() || a.attributes.size() != b.attributes.size())
     return 1;
   double sum = std::abs(a.existence - b.existence);
-  for (std::size_t m = 0; m < a.models.size() && sum < 1; ++m) {
+  for (std::size_t m = 0; m < a.models.size() && sum < most; ++m) {
     const double wa = a.models[m].weight, wb = b.models[m].weight;
     sum += std::abs(wa - wb);
     const auto *ka = std::get_if<Kinematic>(&a.models[m].density),
@@ -160,8 +161,10 @@ double difference(const Leaf& a, const Leaf& b, const Background& background) {
         return 1;
       continue;
     }
-    sum += std::max(wa, wb) * difference(*ka, *kb, background.dims);
+    const double w = std::max(wa, wb);
+    sum += w * difference(*ka, *kb, background.dims, (most - sum) / w);
   }
+  if (sum >= most) return std::min(sum, 1.0);
   for (std::size_t c = 0; c < a.classes.size(); ++c)
     sum += 0.5 * std::abs(a.classes[c] - b.classes[c]);
   for (std::size_t i = 0; i < a.attributes.size(); ++i) {
