@@ -179,8 +179,9 @@ std::vector<std::shared_ptr<const Cluster>> associate(
   Children children(tied, detections, frame, belief.frames, visibility, background);
   RankedAssociations ranked(problem, background.log_least_weight);
   double total = kLogZero;
-  std::vector<int> given;  // per leaf of the parent: a detection or kMiss
-  bool heir = false;       // the most probable child of the world that was shown
+  std::vector<int> given;   // per leaf of the parent: a detection or kMiss
+  double least = kLogZero;  // what is below has not been looked at
+  bool heir = false;        // the most probable child of the world that was shown
   while (auto next = ranked.next()) {
     // Below this a weight stays below min_weight whatever else is found.
     if (next->log_weight < total + background.log_least_weight) break;
@@ -207,16 +208,19 @@ std::vector<std::shared_ptr<const Cluster>> associate(
     const auto kept = static_cast<std::size_t>(limits.max_hypotheses);
     if (kept > 0 && joint.hypotheses.size() >= kept &&
         (joint.hypotheses.size() >= kLookAhead * kept ||
-         next->log_weight < total + kWorthLookingAhead))
+         next->log_weight < total + kWorthLookingAhead)) {
+      least = next->log_weight;
       break;
+    }
   }
   merge_equal(joint.hypotheses);
   if (limits.scan_depth > 0) {
     merge_alike(joint, background);
-    merge_nearest(joint, limits.max_hypotheses, background);
+    // Versions that were merged in several hypotheses alike are then one.
+    if (merge_nearest(joint, limits.max_hypotheses, background)) merge_alike(joint, background);
   }
   prune(joint.hypotheses, limits.max_hypotheses, limits.min_weight);
-  return split(joint, background);
+  return split(joint, background, least == kLogZero ? 0 : std::exp(least - total));
 }
 
 }  // namespace anchord

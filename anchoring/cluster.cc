@@ -94,12 +94,13 @@ void merge_alike(Cluster& cluster, const Background& background) {
 }
 
 std::vector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
-                                                  const Background& background) {
+                                                  const Background& background, double least) {
   const Limits& limits = background.knowledge.limits;
   const bool bounded = limits.min_weight > 0 || limits.max_hypotheses > 0;
   const bool full = limits.max_hypotheses > 0 &&
                     cluster.hypotheses.size() >= static_cast<std::size_t>(limits.max_hypotheses);
-  const double floor = full ? std::exp(cluster.hypotheses.back().log_weight) : limits.min_weight;
+  const double last = full ? std::exp(cluster.hypotheses.back().log_weight) : 0;
+  const double floor = std::max({limits.min_weight, least, last});
   const Cut cut = bounded ? Cut{floor, kNegligible, kUneven} : Cut{0, kRounding, 0};
   std::vector<std::shared_ptr<const Cluster>> parts;
   for (Factor& factor : factorise(cluster.hypotheses, cut)) {

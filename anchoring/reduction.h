@@ -14,6 +14,7 @@ namespace anchord {
 ///
 /// After Salmond, "Mixture reduction algorithms for target tracking in clutter", SPIE 1305, 1990
 /// (clustering by distance from the most probable component), over the joint state of a cluster.
-void merge_nearest(Cluster& cluster, int max, const Background& background);
+/// Returns whether any were made one.
+bool merge_nearest(Cluster& cluster, int max, const Background& background);
 
 }  // namespace anchord

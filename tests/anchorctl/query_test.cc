@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "core/percent_encoding.h"
-
 #include "tools/anchorctl/http_client.h"
 
 namespace anchord {

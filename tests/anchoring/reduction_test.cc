@@ -110,6 +110,32 @@ TEST_F(Reduction, WhatIsFarFromAllOthersIsNotForcedIntoThem) {
   EXPECT_EQ(cluster.hypotheses.size(), 3u);
 }
 
+TEST_F(Reduction, WhereTheMapBeginsDoesNotMatter) {
+  for (const double origin : {0.0, 1e3}) {
+    const auto wide = [&](double x, double variance) {
+      Leaf leaf = at(origin + x);
+      std::get<Kinematic>(leaf.models[0].density).pp.diagonal().setConstant(variance);
+      return leaf;
+    };
+    // Nearly the same density, and twice one that only a scale of their own would make the same.
+    Cluster cluster = cluster_of({{wide(1, 0.01), wide(1, 0.011), wide(3, 0.09)}},
+                                 {{0.5, {0}}, {0.3, {1}}, {0.2, {2}}});
+    merge_nearest(cluster, 1, *background_);
+    ASSERT_EQ(cluster.hypotheses.size(), 2u) << origin;
+    EXPECT_NEAR(std::exp(cluster.hypotheses[0].log_weight), 0.8, kRounding);
+  }
+}
+
+TEST_F(Reduction, WhatIsAbsentDoesNotBringFarVersionsTogether) {
+  // Both are hardly there, so that either alone is close to nothing.
+  Leaf other = at(0, 0.01);
+  other.models.push_back({0, Kinematic{}});  // of another kind: cannot be mixed at all
+  Cluster cluster = cluster_of({{at(0)}, {at(0, 0.01), at(50, 0.01), other}},
+                               {{0.4, {0, kNone}}, {0.3, {0, 0}}, {0.2, {0, 1}}, {0.1, {0, 2}}});
+  merge_nearest(cluster, 1, *background_);
+  EXPECT_EQ(cluster.hypotheses.size(), 3u);
+}
+
 TEST_F(Reduction, WhatWasShownStaysShown) {
   Cluster cluster = cluster_of({{at(0), at(0.02), at(0.04)}}, {{0.5, {0}}, {0.3, {1}}, {0.2, {2}}});
   cluster.anchors[0].shown = 2;
@@ -122,13 +148,17 @@ TEST_F(Reduction, WhatIsSaidOfEachAnchorAloneStaysAsItIs) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
   for (int trial = 0; trial < 100; ++trial) {
+    // The third is hardly there, and in some hypotheses not at all.
     std::vector<std::vector<Leaf>> anchors(3);
-    for (auto& leaves : anchors)
-      for (int l = 0; l < 6; ++l) leaves.push_back(at(0.3 * uniform(random), uniform(random)));
+    for (int a = 0; a < 3; ++a)
+      for (int l = 0; l < 6; ++l)
+        anchors[a].push_back(
+            at(0.15 * uniform(random), (a < 2 ? 0.98 : 0) + 0.02 * uniform(random)));
     std::vector<Case> cases;
     for (int h = 0; h < 30; ++h) {
       Case& c = cases.emplace_back(Case{uniform(random), {}});
-      for (int a = 0; a < 3; ++a) c.leaf.push_back(static_cast<int>(7 * uniform(random)) - 1);
+      for (int a = 0; a < 3; ++a)
+        c.leaf.push_back(static_cast<int>((a < 2 ? 6 : 7) * uniform(random)) - (a < 2 ? 0 : 1));
     }
     Cluster cluster = cluster_of(anchors, cases);
     const Cluster before = cluster;

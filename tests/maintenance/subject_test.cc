@@ -28,7 +28,8 @@ constexpr const char* kTwoClasses = R"({
                       "verification": {}}}})";
 
 TEST(Subject, PredictsWhatTheBeliefPredicts) {
-  World world = with_a_cup_that_gets_lost(R"({"kind": "constant_velocity", "acceleration_psd": 0.01})");
+  World world =
+      with_a_cup_that_gets_lost(R"({"kind": "constant_velocity", "acceleration_psd": 0.01})");
   ASSERT_TRUE(world.apply(cups_at({{5.1, 5}}, kStart + 1'000'000)).ok());
   const Site site(world.background()->knowledge);
   const std::vector<Subject> now{subject_of(only_object(world, 1), *world.background())};

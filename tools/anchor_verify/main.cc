@@ -137,10 +137,10 @@ int run(Options options) {
     if (!opened) return fail(kProgram, opened.error());
     video = std::move(*opened);
   }
-  auto bus = LcmBus::open(options.lcm_url);
-  if (!bus) return fail(kProgram, bus.error());
   TaskList tasks(options.robot, options.sensor, options.dims, settings->verification.looks);
   ImageInbox inbox(options.robot, options.sensor, settings->camera);
+  auto bus = LcmBus::open(options.lcm_url);  // after what its thread calls, so that it ends before
+  if (!bus) return fail(kProgram, bus.error());
   listen(**bus, tasks);
   if (!video) listen(**bus, inbox);
   (*bus)->start();
