@@ -11,7 +11,7 @@ namespace anchord {
 namespace {
 
 /// Squared distances within which hypotheses become one, tried in turn: from a fraction of a
-/// standard deviation in one coordinate to a few in several. Chosen on simulated crowds.
+/// standard deviation in one coordinate to about one and a half. Simulated crowds seldom need more.
 constexpr double kClosest = 0.03, kFarthest = 3, kWider = 3;
 /// What a whole unit of probability is worth as a squared distance: an object more or less is never
 /// alike.
