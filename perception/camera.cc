@@ -24,6 +24,17 @@ double distorted_radius(double r_ideal, double kappa) {
 
 }  // namespace
 
+CameraParameters pinhole(int width, int height, double focal) {
+  CameraParameters result;
+  result.width = width;
+  result.height = height;
+  result.focal = focal;  // with pixels of 1 mm
+  result.dpx = result.dpy = 1;
+  result.cx = (width - 1) / 2.0;
+  result.cy = (height - 1) / 2.0;
+  return result;
+}
+
 Camera::Camera(const CameraParameters& parameters) : parameters_(parameters) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
   rotation_ = (AngleAxisd(parameters.rotation.z(), Vector3d::UnitZ()) *

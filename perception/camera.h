@@ -23,6 +23,11 @@ struct CameraParameters {
   bool carried = false;  ///< a robot carries it: each picture has a pose instead (see Camera::at())
 };
 
+/// A camera without distortion whose optical axis meets the middle of its picture, at the map's
+/// origin with the camera's own axes (x right, y down, z forward). `width`, `height`, `focal`:
+/// pixels.
+CameraParameters pinhole(int width, int height, double focal);
+
 /// Where a pixel's ray meets the ground, and how that moves with the pixel.
 struct GroundPoint {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m, map frame

@@ -21,13 +21,7 @@ int run(const char* camera_file) {
   if (!settings) return 2;
   settings->occluders.clear();
   CameraParameters& c = settings->camera;  // a Kinect 1.2 m above the ground that looks along x
-  c = CameraParameters{};
-  c.width = 640;
-  c.height = 480;
-  c.focal = 525;
-  c.cx = 319.5;
-  c.cy = 239.5;
-  c.dpx = c.dpy = 1;
+  c = pinhole(640, 480, 525);
   c.rotation = {CV_PI / 2, -CV_PI / 2, 0};
   c.translation = {0, 1.2, 0};
   Verifier verifier(*settings, {}, 3);

@@ -19,13 +19,7 @@ inline DetectorSettings kinect() {
   DetectorSettings settings = plaza_settings();
   settings.occluders.clear();
   CameraParameters& c = settings.camera;
-  c.width = 640;
-  c.height = 480;
-  c.focal = 525;
-  c.kappa1 = 0;
-  c.cx = 319.5;
-  c.cy = 239.5;
-  c.sx = c.dpx = c.dpy = 1;
+  c = pinhole(640, 480, 525);
   // Camera axes: x to the right (-y), y down (-z), z forward (x).
   c.rotation = {M_PI / 2, -M_PI / 2, 0};
   Eigen::Matrix3d r;

@@ -137,15 +137,8 @@ RC_GTEST_PROP(Camera, CarriedThereIsTheCameraThatStandsThere, ()) {
 }
 
 TEST(Camera, CarriedLooksAlongX) {
-  CameraParameters parameters;
-  parameters.width = 640;
-  parameters.height = 480;
-  parameters.focal = 525;
-  parameters.cx = 319.5;
-  parameters.cy = 239.5;
-  parameters.dpx = parameters.dpy = 1;
   // At (1, 2, 3), looking along the map's y.
-  const Camera camera = Camera(parameters).at(pose_of({1, 2, 3}, M_PI / 2));
+  const Camera camera = Camera(pinhole(640, 480, 525)).at(pose_of({1, 2, 3}, M_PI / 2));
   EXPECT_NEAR(camera.depth({1, 7, 3}), 5, 1e-12);
   const auto pixel = [&](double x, double y, double z) { return camera.project({x, y, z}); };
   EXPECT_LT((pixel(1, 7, 3) - Eigen::Vector2d(319.5, 239.5)).norm(), 1e-9);
