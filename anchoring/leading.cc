@@ -16,6 +16,7 @@ constexpr double kClearly = 2.302585092994046;  // ln 10
 constexpr double kClearlyTwin = 1.0986122886681098;  // ln 3
 /// Positions closer than this, in standard deviations of their difference, are the same spot.
 constexpr double kSameSpot = 1;
+
 class Names {
  public:
   Names(const Cluster& cluster, int dims) : cluster_(cluster), dims_(dims) {}
@@ -68,6 +69,7 @@ class Names {
     }
     return false;
   }
+
   const Leaf& leaf(std::size_t anchor, int l) const { return *cluster_.anchors[anchor].leaves[l]; }
   bool stands(std::size_t anchor, int l) const {
     return l != Hypothesis::kNoLeaf && leaf(anchor, l).existence >= kBelievedIn;

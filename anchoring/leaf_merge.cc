@@ -154,13 +154,11 @@ double difference(const Leaf& a, const Leaf& b, const Background& background, do
     sum += std::abs(wa - wb);
     const auto *ka = std::get_if<Kinematic>(&a.models[m].density),
                *kb = std::get_if<Kinematic>(&b.models[m].density);
-    if (wa <= 0 || wb <= 0) continue;
-    if (!ka) {
-      if (std::get<Somewhere>(a.models[m].density).footprint() !=
-          std::get<Somewhere>(b.models[m].density).footprint())
-        return 1;
-      continue;
-    }
+    // Whatever their weights: so that of three versions alike in pairs all can be merged.
+    if (!ka && std::get<Somewhere>(a.models[m].density).footprint() !=
+                   std::get<Somewhere>(b.models[m].density).footprint())
+      return 1;
+    if (!ka || wa <= 0 || wb <= 0) continue;
     const double w = std::max(wa, wb);
     sum += w * difference(*ka, *kb, background.dims, (most - sum) / w);
   }

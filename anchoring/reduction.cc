@@ -2,90 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-
-#include "models/kinematic.h"
 
 namespace anchord {
 namespace {
 
-/// Squared distances within which hypotheses become one, tried in turn: from a fraction of a
-/// standard deviation in one coordinate to about one and a half. Simulated crowds seldom need more.
-constexpr double kClosest = 0.03, kFarthest = 3, kWider = 3;
-/// What a whole unit of probability is worth as a squared distance: an object more or less is never
-/// alike.
-constexpr double kCertain = 100;
-constexpr double kApart = std::numeric_limits<double>::infinity();
-
-/// Between two normal densities of one coordinate: the symmetric Kullback-Leibler divergence, with
-/// the gap in units of the mean variance.
-double distance2(double gap, double variance_a, double variance_b) {
-  const double sum = variance_a + variance_b, product = variance_a * variance_b;
-  const double change = variance_a - variance_b;
-  return (sum > 0 ? 2 * gap * gap / sum : 0) + (product > 0 ? change * change / (2 * product) : 0);
-}
-
-/// Of what is `most` or more, here and below, only that it is.
-double distance2(const Kinematic& a, const Kinematic& b, double most, int dims) {
-  double sum = 0;
-  for (int i = 0; i < dims && sum < most; ++i)
-    sum += distance2(a.position[i] - b.position[i], a.pp(i, i), b.pp(i, i));
-  for (int i = 0; i < dims && sum < most; ++i)
-    sum += distance2(a.velocity[i] - b.velocity[i], a.vv(i, i), b.vv(i, i));
-  return sum;
-}
-
-/// Of two states of one behaviour model; kApart where they cannot be mixed.
-double distance2(const ModelState& a, const ModelState& b, double most, int dims) {
-  const double sum = kCertain / 2 * std::abs(a.weight - b.weight);
-  const auto *ka = std::get_if<Kinematic>(&a.density), *kb = std::get_if<Kinematic>(&b.density);
-  if (!ka != !kb) return kApart;
-  if (ka) {
-    const double weight = std::min(a.weight, b.weight);
-    return weight > 0 ? sum + weight * distance2(*ka, *kb, (most - sum) / weight, dims) : sum;
-  }
-  const bool same_place =
-      std::get<Somewhere>(a.density).footprint() == std::get<Somewhere>(b.density).footprint();
-  return same_place ? sum : kApart;
-}
-
-double distance2(const AttributeBelief& a, const AttributeBelief& b) {
-  if (a.attribute != b.attribute || a.symbols.size() != b.symbols.size()) return kApart;
-  if (a.symbols.empty()) return distance2(a.mean - b.mean, a.variance, b.variance);
-  double sum = 0;
-  for (std::size_t s = 0; s < a.symbols.size(); ++s)
-    sum += kCertain / 2 * std::abs(a.symbols[s] - b.symbols[s]);
-  return sum;
-}
-
-/// Of two versions of an anchor; kApart where merge() cannot mix them.
-double distance2(const Leaf& a, const Leaf& b, double most, int dims) {
-  if (a.model_class != b.model_class || a.held != b.held || a.models.size() != b.models.size() ||
-      a.attributes.size() != b.attributes.size())
-    return kApart;
-  double sum = kCertain * std::abs(a.existence - b.existence);
-  for (std::size_t m = 0; m < a.models.size() && sum < most; ++m)
-    sum += distance2(a.models[m], b.models[m], most - sum, dims);
-  if (sum >= most) return sum;
-  for (std::size_t c = 0; c < a.classes.size(); ++c)
-    sum += kCertain / 2 * std::abs(a.classes[c] - b.classes[c]);
-  for (std::size_t i = 0; i < a.attributes.size(); ++i)
-    sum += distance2(a.attributes[i], b.attributes[i]);
-  return sum;
-}
+/// How far apart hypotheses are that become one, tried in turn: the difference() of their versions,
+/// summed over anchors. Below 1, so that what is not comparable is never made one.
+constexpr double kClosest = 0.05, kFarthest = 0.8, kWider = 3;
 
 /// Which hypotheses go into which.
 class Groups {
  public:
-  Groups(const Cluster& cluster, int dims)
+  Groups(const Cluster& cluster, const Background& background)
       : cluster_(cluster),
-        dims_(dims),
+        background_(background),
         into_(cluster.hypotheses.size()),
         heads_(cluster.hypotheses.size()) {
     std::iota(into_.begin(), into_.end(), 0);
     std::iota(heads_.begin(), heads_.end(), 0);
     for (const Hypothesis& h : cluster.hypotheses) leaves_.push_back(h.leaf);
+    for (const AnchorTree& tree : cluster.anchors) {
+      const std::size_t n = tree.leaves.size();
+      known_.emplace_back(n <= kMostKept ? n * n : 0, kUnknown);
+    }
   }
 
   std::size_t count() const { return heads_.size(); }
@@ -95,7 +35,7 @@ class Groups {
     std::vector<int> stay;
     for (const int h : heads_) {
       const auto near = std::find_if(stay.begin(), stay.end(), [&](int head) {
-        return squared(leaves_[h], leaves_[head], most) < most;
+        return apart(leaves_[h], leaves_[head], most) < most;
       });
       if (near == stay.end())
         stay.push_back(h);
@@ -114,18 +54,30 @@ class Groups {
 
  private:
   using Leaves = decltype(Hypothesis::leaf);
+  static constexpr double kUnknown = -1;
+  static constexpr std::size_t kMostKept = 512;  ///< versions of an anchor: 2 MB
 
-  double squared(const Leaves& g, const Leaves& h, double most) const {
+  /// Of what is at least `most`, only that it is.
+  double apart(const Leaves& g, const Leaves& h, double most) {
     double sum = 0;
     for (std::size_t a = 0; a < g.size() && sum < most; ++a) {
       if (g[a] == h[a]) continue;
-      const auto& leaves = cluster_.anchors[a].leaves;
-      if (g[a] == Hypothesis::kNoLeaf || h[a] == Hypothesis::kNoLeaf)
-        sum += kCertain * leaves[std::max(g[a], h[a])]->existence;
-      else
-        sum += distance2(*leaves[g[a]], *leaves[h[a]], most - sum, dims_);
+      const auto [l, m] = std::minmax(g[a], h[a]);
+      sum += l == Hypothesis::kNoLeaf ? cluster_.anchors[a].leaves[m]->existence : between(a, l, m);
     }
     return sum;
+  }
+
+  /// Of two versions of an anchor; kept, since many hypotheses have the same ones.
+  double between(std::size_t anchor, int l, int m) {
+    const auto& leaves = cluster_.anchors[anchor].leaves;
+    const auto difference_of = [&] {
+      return difference(*leaves[l], *leaves[m], background_, kFarthest);
+    };
+    if (known_[anchor].empty()) return difference_of();
+    double& known = known_[anchor][l * leaves.size() + m];
+    if (known == kUnknown) known = difference_of();
+    return known;
   }
 
   /// A head without a version of an anchor takes that of the first that has one, so that all that
@@ -137,9 +89,10 @@ class Groups {
   }
 
   const Cluster& cluster_;
-  int dims_;
+  const Background& background_;
   std::vector<int> into_, heads_;
-  std::vector<Leaves> leaves_;  // per hypothesis, of it and all that went into it
+  std::vector<Leaves> leaves_;              // per hypothesis, of it and all that went into it
+  std::vector<std::vector<double>> known_;  // per anchor: see between()
 };
 
 /// A version that is not there at all is one that exists with probability 0.
@@ -196,7 +149,7 @@ class Merging {
 bool merge_nearest(Cluster& cluster, int max, const Background& background) {
   HypothesisSet& all = cluster.hypotheses;
   if (max <= 0 || all.size() <= static_cast<std::size_t>(max)) return false;
-  Groups groups(cluster, background.dims);
+  Groups groups(cluster, background);
   for (double most = kClosest; most <= kFarthest && groups.count() > static_cast<std::size_t>(max);
        most *= kWider)
     groups.widen(most);

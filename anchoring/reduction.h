@@ -5,12 +5,13 @@
 namespace anchord {
 
 /// Makes room: where a cluster has more than `max` hypotheses, those that are alike in all anchors
-/// at once become one, first the closest ones, until there are `max` or none are alike any more.
-/// Each goes into the most probable one near it, by moments anchor by anchor; so what is said of
-/// each anchor alone stays as it is, and what is lost is how anchors depend within such a group.
-/// That is little beside dropping the least probable ones: two objects that move together for a
-/// second have thousands of histories of nearly one weight and nearly one state, and of two ways to
-/// tell such objects apart the rarer would lose most of its histories, and so its probability.
+/// at once (by difference() of their versions, summed) become one, first the closest ones, until
+/// there are `max` or none are alike any more; 0 is no bound. Each goes into the most probable one
+/// near it, by moments anchor by anchor; so what is said of each anchor alone stays as it is, and
+/// what is lost is how anchors depend within such a group. That is little beside dropping the least
+/// probable ones: two objects that move together for a second have thousands of histories of nearly
+/// one weight and nearly one state, and of two ways to tell such objects apart the rarer would lose
+/// most of its histories, and so its probability.
 ///
 /// After Salmond, "Mixture reduction algorithms for target tracking in clutter", SPIE 1305, 1990
 /// (clustering by distance from the most probable component), over the joint state of a cluster.
