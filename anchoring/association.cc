@@ -57,12 +57,14 @@ Tied tie(const std::vector<PredictedCluster>& clusters, const Limits& limits) {
 AssociationProblem problem_of(const Tied& tied, const std::vector<int>& detections) {
   AssociationProblem problem;
   problem.detections = static_cast<int>(detections.size());
-  problem.gain.assign(tied.leaves.size() * detections.size(), kLogZero);
-  for (std::size_t l = 0; l < tied.leaves.size(); ++l)
-    for (const auto& [z, log_gain] : tied.leaves[l]->gains) {
+  for (const PredictedLeaf* leaf : tied.leaves) {
+    auto& gains = problem.gains.emplace_back();
+    for (const auto& [z, log_gain] : leaf->gains) {
       const auto at = std::lower_bound(detections.begin(), detections.end(), z);
-      problem.gain[l * detections.size() + (at - detections.begin())] = log_gain;
+      if (at != detections.end() && *at == z)
+        gains.push_back({static_cast<int>(at - detections.begin()), log_gain});
     }
+  }
   for (const Hypothesis& h : tied.hypotheses) {
     AssociationProblem::Parent parent{h.log_weight, {}};
     for (std::size_t a = 0; a < h.leaf.size(); ++a) {
@@ -179,14 +181,13 @@ std::vector<std::shared_ptr<const Cluster>> associate(
   Children children(tied, detections, frame, belief.frames, visibility, background);
   RankedAssociations ranked(problem, background.log_least_weight);
   double total = kLogZero;
-  std::vector<int> given;   // per leaf of the parent: a detection or kMiss
-  double least = kLogZero;  // what is below has not been looked at
-  bool heir = false;        // the most probable child of the world that was shown
+  std::vector<int> given(tied.leaves.size(), kMiss);  // per leaf
+  double least = kLogZero;                            // what is below has not been looked at
+  bool heir = false;  // the most probable child of the world that was shown
   while (auto next = ranked.next()) {
     // Below this a weight stays below min_weight whatever else is found.
     if (next->log_weight < total + background.log_least_weight) break;
     total = log_add(total, next->log_weight);
-    given.assign(problem.parents[next->parent].leaves.size(), kMiss);
     Hypothesis h{next->log_weight, {}};
     h.leaf.resize(joint.anchors.size(), Hypothesis::kNoLeaf);
     for (std::size_t z = 0; z < detections.size(); ++z) {
@@ -196,10 +197,13 @@ std::vector<std::shared_ptr<const Cluster>> associate(
         h.leaf[anchor_of[z]] = 0;
     }
     const Hypothesis& parent = tied.hypotheses[next->parent];
-    for (std::size_t a = 0, i = 0; a < old_anchors; ++a) {
+    for (std::size_t a = 0; a < old_anchors; ++a) {
       if (parent.leaf[a] == Hypothesis::kNoLeaf) continue;
-      h.leaf[a] = children.of(tied.first_leaf[a] + parent.leaf[a], given[i++], joint.anchors[a]);
+      const int leaf = tied.first_leaf[a] + parent.leaf[a];
+      h.leaf[a] = children.of(leaf, given[leaf], joint.anchors[a]);
     }
+    for (const int leaf : next->leaf_of)
+      if (leaf != Association::kNone) given[leaf] = kMiss;
     if (!heir && next->parent == tied.leading) {
       heir = true;
       for (std::size_t a = 0; a < old_anchors; ++a) joint.anchors[a].shown = h.leaf[a];

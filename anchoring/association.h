@@ -6,6 +6,7 @@
 #include "anchoring/belief.h"
 #include "anchoring/map_frame.h"
 #include "anchoring/visibility.h"
+#include "mht/association_problem.h"
 
 namespace anchord {
 
@@ -17,11 +18,7 @@ struct PredictedLeaf {
   double log_miss = 0;  ///< ln(1 - r q)
   /// What it is worth to give the leaf a detection: ln of that, over giving it nothing and the
   /// detection being new or clutter. Only detections that it may be given, ascending.
-  struct Gain {
-    int detection;
-    double log_gain;
-  };
-  boost::container::small_vector<Gain, 4> gains;
+  AssociationProblem::Gains gains;
 };
 
 /// A cluster as one frame finds it.

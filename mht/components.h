@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "mht/association_problem.h"
+#include "mht/ranked_assignments.h"
+
+namespace anchord {
+
+/// Detections whose choices do not depend on any others', with their ranked assignments.
+struct Block {
+  std::vector<int> detections;  ///< of the problem
+  std::vector<int> leaves;      ///< of the problem; assignments count positions in it
+  RankedAssignments ranked;
+};
+
+/// Some leaves and all detections that they may be given: as far as pairs go, apart from the rest
+/// of a parent. Many parents share it, and its ranking.
+struct Component {
+  std::vector<int> leaves;      ///< of the problem, in the order of the parent
+  std::vector<int> detections;  ///< of the problem
+  double best = 0;              ///< what its best assignment gains
+  std::vector<int> best_leaf;   ///< per detection: a leaf of the problem or Association::kNone
+  std::vector<Block> blocks;    ///< that have more than one assignment
+
+  /// Of a component of many detections: positions in `detections` and `leaves`.
+  struct Solved {
+    PairGains gains;
+    Assignment best;
+  };
+  std::optional<Solved> solved;
+};
+
+/// The components of a problem's parents, each made once.
+class Components {
+ public:
+  explicit Components(const AssociationProblem& problem);
+
+  /// Numbers of a parent's components; at() gives them.
+  std::vector<int> of(const AssociationProblem::Parent& parent);
+  Component& at(int component) { return components_[component]; }
+
+  /// Whether there are components of many detections. They have no blocks until take_apart().
+  bool large() const { return large_; }
+
+  /// A reach (see take_apart()) within which there are some, but not many assignments.
+  double first_reach() const;
+
+  /// Makes the blocks of components of many detections anew, for assignments that gain less than
+  /// the best one by at most `reach`: a pair whose slack is more than that, in the prices of the
+  /// best one, is in none of them.
+  void take_apart(double reach);
+
+ private:
+  int find(int z);
+  int known(const std::vector<int>& leaves);
+  Component made(const std::vector<int>& leaves);
+
+  const AssociationProblem& problem_;
+  bool large_ = false;
+  std::deque<Component> components_;
+  std::unordered_multimap<std::uint64_t, int> by_leaves_;
+  std::vector<int> parent_;    // of a detection, among those that share a leaf
+  std::vector<int> position_;  // of a detection in the component that is made
+};
+
+}  // namespace anchord
