@@ -5,6 +5,7 @@
 
 #include "anchoring/belief.h"
 #include "anchoring/map_frame.h"
+#include "anchoring/nearby.h"
 #include "anchoring/visibility.h"
 #include "mht/association_problem.h"
 
@@ -24,8 +25,8 @@ struct PredictedLeaf {
 /// A cluster as one frame finds it.
 struct PredictedCluster {
   std::shared_ptr<const Cluster> cluster;
-  std::vector<std::vector<PredictedLeaf>> leaves;  ///< per anchor and leaf
-  std::vector<char> gated;                         ///< per detection: some leaf may be given it
+  ScratchVector<ScratchVector<PredictedLeaf>> leaves;  ///< per anchor and leaf
+  ScratchVector<char> gated;                         ///< per detection: some leaf may be given it
   bool shown = false;                              ///< some leaf may be missed
   bool stepped = false;                            ///< must be carried along in any case
 
@@ -52,11 +53,11 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
                             const Background& background);
 PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame& frame,
                          const std::vector<Origin>& origins, const Visibility& visibility,
-                         const Background& background);
+                         Nearby& nearby, const Background& background);
 /// Associates `detections` (indices into the frame, ascending) with the clusters that they tie
 /// together: the clusters after the frame. Without clusters each detection starts one of its own.
 std::vector<std::shared_ptr<const Cluster>> associate(
-    const std::vector<PredictedCluster>& clusters, const std::vector<int>& detections,
+    const ScratchVector<PredictedCluster>& clusters, const ScratchVector<int>& detections,
     const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
     const Background& background, const Belief& belief);
 

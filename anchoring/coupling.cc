@@ -23,7 +23,7 @@ class Ties {
   }
 
  private:
-  std::vector<std::size_t> parent_;
+  ScratchVector<std::size_t> parent_;
 };
 
 /// That some leaf of an anchor is given a detection.
@@ -35,13 +35,13 @@ struct Edge {
 /// What each anchor is worth to each detection, whichever hypothesis holds, as if anchors were
 /// independent of each other.
 void add_edges(const PredictedCluster& predicted, int cluster, int& anchors,
-               std::vector<Edge>& edges) {
+               ScratchVector<Edge>& edges) {
   const HypothesisSet& hypotheses = predicted.cluster->hypotheses;
   for (std::size_t a = 0; a < predicted.leaves.size(); ++a, ++anchors) {
     const auto& leaves = predicted.leaves[a];
     const auto has_gains = [](const PredictedLeaf& leaf) { return !leaf.gains.empty(); };
     if (std::none_of(leaves.begin(), leaves.end(), has_gains)) continue;
-    std::vector<double> nothing(leaves.size(), 0.0);  // P(leaf, it gives nothing)
+    ScratchVector<double> nothing(leaves.size(), 0.0);  // P(leaf, it gives nothing)
     double sum = 0;
     for (const Hypothesis& h : hypotheses) {
       const double p = std::exp(h.log_weight);
@@ -69,7 +69,7 @@ void add_edges(const PredictedCluster& predicted, int cluster, int& anchors,
 
 }  // namespace
 
-std::vector<Group> couple(std::vector<PredictedCluster> clusters, int detections,
+ScratchVector<Group> couple(ScratchVector<PredictedCluster> clusters, int detections,
                           double negligible) {
   const std::size_t n = clusters.size();
   Ties ties(n + detections);
@@ -78,21 +78,21 @@ std::vector<Group> couple(std::vector<PredictedCluster> clusters, int detections
       for (int z = 0; z < detections; ++z)
         if (clusters[c].gated[z]) ties.unite(c, n + z);
   } else {
-    std::vector<Edge> edges;
+    ScratchVector<Edge> edges;
     int anchors = 0;
     for (std::size_t c = 0; c < n; ++c) add_edges(clusters[c], static_cast<int>(c), anchors, edges);
-    std::vector<Pairing> pairings;
+    ScratchVector<Pairing> pairings;
     for (const Edge& e : edges) pairings.push_back(e.pairing);
     estimate_probabilities(pairings, anchors, detections);
     for (std::size_t e = 0; e < edges.size(); ++e)
       if (pairings[e].probability >= negligible)
         ties.unite(edges[e].cluster, n + pairings[e].detection);
   }
-  std::vector<Group> by_root(n + detections);
+  ScratchVector<Group> by_root(n + detections);
   for (std::size_t c = 0; c < n; ++c)
     by_root[ties.find(c)].clusters.push_back(std::move(clusters[c]));
   for (int z = 0; z < detections; ++z) by_root[ties.find(n + z)].detections.push_back(z);
-  std::vector<Group> groups;
+  ScratchVector<Group> groups;
   for (Group& group : by_root)
     if (!group.clusters.empty() || !group.detections.empty()) groups.push_back(std::move(group));
   return groups;

@@ -8,8 +8,8 @@ namespace anchord {
 
 /// Clusters and detections that must be associated together.
 struct Group {
-  std::vector<PredictedCluster> clusters;
-  std::vector<int> detections;  ///< ascending
+  ScratchVector<PredictedCluster> clusters;
+  ScratchVector<int> detections;  ///< ascending
 };
 
 /// Brings together what one frame ties: a cluster and a detection that one of its leaves may be
@@ -17,7 +17,7 @@ struct Group {
 /// detection ties a cluster only if it comes from there with at least the probability `negligible`
 /// (estimated over all that are tied, see mht/marginals.h; 0: any). What it might have been given
 /// to otherwise is let go. Groups in order of their first cluster, then those of detections alone.
-std::vector<Group> couple(std::vector<PredictedCluster> clusters, int detections,
+ScratchVector<Group> couple(ScratchVector<PredictedCluster> clusters, int detections,
                           double negligible);
 
 }  // namespace anchord

@@ -53,7 +53,7 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
 
 PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame& frame,
                          const std::vector<Origin>& origins, const Visibility& visibility,
-                         const Background& background) {
+                         Nearby& nearby, const Background& background) {
   PredictedCluster out;
   out.gated.assign(frame.detections.size(), 0);
   out.leaves.resize(cluster->anchors.size());
@@ -69,11 +69,11 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
       // Where two steps are not one long one, every frame must be a step.
       out.stepped = out.stepped || background.dynamics[leaf->model_class].exchanges ||
                     predicted.leaf.model_class != leaf->model_class;
-      for (std::size_t z = 0; z < frame.detections.size(); ++z) {
+      for (const int z : nearby.to(predicted.leaf)) {
         const double gain = log_gain(predicted, *cluster->anchors[a].anchor, frame.detections[z],
                                      origins[z], *frame.sensor, background);
         if (gain == kLogZero) continue;
-        predicted.gains.push_back({static_cast<int>(z), gain});
+        predicted.gains.push_back({z, gain});
         out.gated[z] = 1;
       }
     }
@@ -84,23 +84,25 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
 
 void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
           const Background& background) {
+  const Scratch scratch;
   if (belief.frames == 0) belief.start = frame.utime;
   belief.utime = frame.utime;
   ++belief.frames;
   const std::size_t detections = frame.detections.size();
   const auto from = origins(belief, frame, background);
 
+  Nearby nearby(frame, background);
   std::vector<std::shared_ptr<const Cluster>> untouched;
-  std::vector<PredictedCluster> touched;
+  ScratchVector<PredictedCluster> touched;
   for (auto& cluster : belief.clusters) {
-    auto predicted = predict(cluster, frame, from, visibility, background);
+    auto predicted = predict(cluster, frame, from, visibility, nearby, background);
     if (predicted.touched())
       touched.push_back(std::move(predicted));
     else if (!predicted.departed(background.knowledge.limits.min_existence))
       untouched.push_back(std::move(cluster));
   }
   const double negligible = background.knowledge.limits.min_weight > 0 ? kNegligible : 0;
-  const std::vector<Group> groups =
+  const ScratchVector<Group> groups =
       couple(std::move(touched), static_cast<int>(detections), negligible);
 
   belief.clusters = std::move(untouched);

@@ -23,6 +23,7 @@ void BM_Assignment(benchmark::State& state) {
     for (int leaf = 0; leaf < n; ++leaf) gains.add(leaf, dice.uniform(0, 10));
   }
   for (auto _ : state) {
+    const Scratch scratch;
     const Assignment assignment(gains);
     benchmark::DoNotOptimize(assignment.choice(0));
   }
@@ -55,6 +56,7 @@ void BM_RankedAssociations(benchmark::State& state) {
   constexpr int kBest = 100;
   const AssociationProblem problem = ambiguous_problem(100, 5);
   for (auto _ : state) {
+    const Scratch scratch;
     RankedAssociations ranked(problem);
     for (int i = 0; i < kBest; ++i) {
       auto association = ranked.next();
@@ -95,6 +97,7 @@ void BM_HundredBest(benchmark::State& state) {
   const auto problem =
       square_problem(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 4);
   for (auto _ : state) {
+    const Scratch scratch;
     RankedAssociations ranked(problem);
     for (int i = 0; i < 100; ++i) benchmark::DoNotOptimize(ranked.next());
   }

@@ -151,8 +151,8 @@ class Assignment::Search {
   Assignment& a_;
   const PairGains& gains_;
   int z_, lost_ = kNothing, first_free_ = 0;  // detections before keep their choices
-  boost::container::small_vector<double, 16> distance_;
-  boost::container::small_vector<int, 16> from_, reached_, done_;
+  SmallScratchVector<double, 16> distance_;
+  SmallScratchVector<int, 16> from_, reached_, done_;
   double end_ = kInfinite, nobody_distance_ = kInfinite;
   int end_row_ = -1, end_choice_ = kNone, room_row_ = -1, room_choice_ = kNone;
   bool nobody_is_done_ = false;

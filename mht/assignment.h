@@ -1,7 +1,6 @@
 #pragma once
 
-#include <boost/container/small_vector.hpp>
-
+#include "core/scratch.h"
 #include "mht/pair_gains.h"
 
 namespace anchord {
@@ -18,7 +17,7 @@ class Assignment {
  public:
   static constexpr int kNone = -1;
   /// Choices that a detection has lost: leaves, or kNone.
-  using Banned = boost::container::small_vector<int, 4>;
+  using Banned = SmallScratchVector<int, 4>;
 
   /// The optimum.
   explicit Assignment(const PairGains& gains);
@@ -50,8 +49,8 @@ class Assignment {
   class Search;
 
   // Per detection and per leaf.
-  boost::container::small_vector<int, 8> choice_, owner_;
-  boost::container::small_vector<double, 8> row_price_, column_price_;
+  SmallScratchVector<int, 8> choice_, owner_;
+  SmallScratchVector<double, 8> row_price_, column_price_;
 };
 
 }  // namespace anchord

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <boost/container/small_vector.hpp>
-#include <vector>
+#include "core/scratch.h"
 
 namespace anchord {
 
@@ -11,18 +10,18 @@ struct AssociationProblem {
   /// as new or clutter.
   struct Parent {
     double log_weight = 0;
-    std::vector<int> leaves;  ///< indices into `gains`
+    ScratchVector<int> leaves;  ///< indices into `gains`
   };
   /// What it is worth to give a detection to a leaf instead: ln (r g / (1 - r q)) - ln (kappa + e).
   struct Gain {
     int detection;
     double log_gain;
   };
-  using Gains = boost::container::small_vector<Gain, 4>;
+  using Gains = SmallScratchVector<Gain, 4>;
 
   int detections = 0;
-  std::vector<Gains> gains;  ///< per leaf: of those that it may be given, ascending
-  std::vector<Parent> parents;
+  ScratchVector<Gains> gains;  ///< per leaf: of those that it may be given, ascending
+  ScratchVector<Parent> parents;
 };
 
 /// One hypothesis after the frame.
@@ -30,7 +29,7 @@ struct Association {
   static constexpr int kNone = -1;
   int parent = 0;
   double log_weight = 0;
-  boost::container::small_vector<int, 8> leaf_of;  ///< per detection one of the parent's or kNone
+  SmallScratchVector<int, 8> leaf_of;  ///< per detection one of the parent's or kNone
 };
 
 }  // namespace anchord

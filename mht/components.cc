@@ -14,17 +14,17 @@ constexpr int kManyDetections = 8;
 constexpr std::size_t kFewAlternatives = 12;
 constexpr double kLeastReach = 0.01;
 
-std::uint64_t hash_of(const std::vector<int>& leaves) {
+std::uint64_t hash_of(const ScratchVector<int>& leaves) {
   std::uint64_t hash = 14695981039346656037u;  // FNV-1a
   for (const int leaf : leaves) hash = (hash ^ static_cast<std::uint32_t>(leaf)) * 1099511628211u;
   return hash;
 }
 
 /// Some of a component's detections as a block of their own, if there is anything to choose.
-void add_block(const Component& component, const std::vector<int>& rows, double reach,
-               std::vector<Block>& blocks) {
+void add_block(const Component& component, const ScratchVector<int>& rows, double reach,
+               ScratchVector<Block>& blocks) {
   const auto& [gains, best] = *component.solved;
-  std::vector<int> detections, leaves, number(gains.leaves(), -1);
+  ScratchVector<int> detections, leaves, number(gains.leaves(), -1);
   PairGains own(static_cast<int>(rows.size()), 0);
   bool alternative = false;
   for (const int i : rows) {
@@ -49,10 +49,10 @@ void add_block(const Component& component, const std::vector<int>& rows, double 
 }
 
 /// Detections that share a leaf in pairs that are wanted belong to one block.
-std::vector<Block> blocks_of(const Component& component, double reach) {
+ScratchVector<Block> blocks_of(const Component& component, double reach) {
   const auto& [gains, best] = *component.solved;
   const int n = gains.detections();
-  std::vector<int> block(n), holder(gains.leaves(), -1);
+  ScratchVector<int> block(n), holder(gains.leaves(), -1);
   std::iota(block.begin(), block.end(), 0);
   const auto root = [&](int i) {
     while (block[i] != i) i = block[i] = block[block[i]];
@@ -65,9 +65,9 @@ std::vector<Block> blocks_of(const Component& component, double reach) {
       const int a = root(i), b = root(holder[pair.leaf]);
       block[std::max(a, b)] = std::min(a, b);
     }
-  std::vector<std::vector<int>> members(n);
+  ScratchVector<ScratchVector<int>> members(n);
   for (int i = 0; i < n; ++i) members[root(i)].push_back(i);
-  std::vector<Block> blocks;
+  ScratchVector<Block> blocks;
   for (const auto& rows : members)
     if (!rows.empty()) add_block(component, rows, reach, blocks);
   return blocks;
@@ -75,28 +75,28 @@ std::vector<Block> blocks_of(const Component& component, double reach) {
 
 }  // namespace
 
-Components::Components(const AssociationProblem& problem)
-    : problem_(problem), parent_(problem.detections), position_(problem.detections, -1) {}
+Components::Components(const AssociationProblem& problem, double most_loss)
+    : problem_(problem), most_loss_(most_loss), parent_(problem.detections), position_(problem.detections, -1) {}
 
 int Components::find(int z) {
   while (parent_[z] != z) z = parent_[z] = parent_[parent_[z]];
   return z;
 }
 
-std::vector<int> Components::of(const AssociationProblem::Parent& parent) {
+ScratchVector<int> Components::of(const AssociationProblem::Parent& parent) {
   std::iota(parent_.begin(), parent_.end(), 0);
   for (const int leaf : parent.leaves) {
     const auto& gains = problem_.gains[leaf];
     for (std::size_t i = 1; i < gains.size(); ++i)
       parent_[find(gains[i].detection)] = find(gains[0].detection);
   }
-  std::vector<std::pair<int, int>> by_root;  // leaves that have gains
+  ScratchVector<std::pair<int, int>> by_root;  // leaves that have gains
   for (const int leaf : parent.leaves)
     if (!problem_.gains[leaf].empty())
       by_root.push_back({find(problem_.gains[leaf][0].detection), leaf});
   std::stable_sort(by_root.begin(), by_root.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<int> components, leaves;
+  ScratchVector<int> components, leaves;
   for (std::size_t i = 0; i < by_root.size(); ++i) {
     leaves.push_back(by_root[i].second);
     if (i + 1 < by_root.size() && by_root[i + 1].first == by_root[i].first) continue;
@@ -106,18 +106,28 @@ std::vector<int> Components::of(const AssociationProblem::Parent& parent) {
   return components;
 }
 
-int Components::known(const std::vector<int>& leaves) {
-  const std::uint64_t hash = hash_of(leaves);
-  const auto [begin, end] = by_leaves_.equal_range(hash);
-  for (auto it = begin; it != end; ++it)
-    if (components_[it->second].leaves == leaves) return it->second;
-  const int number = static_cast<int>(components_.size());
-  components_.push_back(made(leaves));
-  by_leaves_.emplace(hash, number);
-  return number;
+int Components::known(const ScratchVector<int>& leaves) {
+  if (2 * (components_.size() + 1) > table_.size()) {
+    table_.assign(std::max<std::size_t>(64, 4 * table_.size()), -1);
+    for (std::size_t c = 0; c < components_.size(); ++c)
+      *slot_of(components_[c].leaves) = static_cast<int>(c);
+  }
+  int* slot = slot_of(leaves);
+  if (*slot < 0) {
+    *slot = static_cast<int>(components_.size());
+    components_.push_back(made(leaves));
+  }
+  return *slot;
 }
 
-Component Components::made(const std::vector<int>& leaves) {
+/// Where these leaves' component stands in the table, or would.
+int* Components::slot_of(const ScratchVector<int>& leaves) {
+  std::size_t at = hash_of(leaves) % table_.size();
+  while (table_[at] >= 0 && components_[table_[at]].leaves != leaves) at = (at + 1) % table_.size();
+  return &table_[at];
+}
+
+Component Components::made(const ScratchVector<int>& leaves) {
   Component component;
   component.leaves = leaves;
   for (const int leaf : leaves)
@@ -130,7 +140,7 @@ Component Components::made(const std::vector<int>& leaves) {
   const int n = static_cast<int>(component.detections.size());
   for (int i = 0; i < n; ++i) position_[component.detections[i]] = i;
 
-  std::vector<std::vector<PairGains::Entry>> rows(n);
+  ScratchVector<ScratchVector<PairGains::Entry>> rows(n);
   for (std::size_t l = 0; l < leaves.size(); ++l)
     for (const auto& [z, gain] : problem_.gains[leaves[l]])
       rows[position_[z]].push_back({static_cast<int>(l), gain});
@@ -143,8 +153,8 @@ Component Components::made(const std::vector<int>& leaves) {
 
   component.best_leaf.assign(n, Association::kNone);
   if (n <= kManyDetections) {
-    component.blocks.push_back({component.detections, leaves, {std::move(gains), -kLogZero}});
-    component.best = component.blocks.back().ranked.at(0)->gain;
+    component.blocks.push_back({component.detections, leaves, {std::move(gains), most_loss_}});
+    component.best = component.blocks.back().ranked.gain(0);
     return component;
   }
   large_ = true;
@@ -157,7 +167,7 @@ Component Components::made(const std::vector<int>& leaves) {
 }
 
 double Components::first_reach() const {
-  std::vector<double> slacks;
+  ScratchVector<double> slacks;
   for (const Component& component : components_) {
     if (!component.solved) continue;
     const auto& [gains, best] = *component.solved;

@@ -3,8 +3,6 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <unordered_map>
-#include <vector>
 
 #include "mht/association_problem.h"
 #include "mht/ranked_assignments.h"
@@ -13,19 +11,19 @@ namespace anchord {
 
 /// Detections whose choices do not depend on any others', with their ranked assignments.
 struct Block {
-  std::vector<int> detections;  ///< of the problem
-  std::vector<int> leaves;      ///< of the problem; assignments count positions in it
+  ScratchVector<int> detections;  ///< of the problem
+  ScratchVector<int> leaves;      ///< of the problem; assignments count positions in it
   RankedAssignments ranked;
 };
 
 /// Some leaves and all detections that they may be given: as far as pairs go, apart from the rest
 /// of a parent. Many parents share it, and its ranking.
 struct Component {
-  std::vector<int> leaves;      ///< of the problem, in the order of the parent
-  std::vector<int> detections;  ///< of the problem
+  ScratchVector<int> leaves;      ///< of the problem, in the order of the parent
+  ScratchVector<int> detections;  ///< of the problem
   double best = 0;              ///< what its best assignment gains
-  std::vector<int> best_leaf;   ///< per detection: a leaf of the problem or Association::kNone
-  std::vector<Block> blocks;    ///< that have more than one assignment
+  ScratchVector<int> best_leaf;   ///< per detection: a leaf of the problem or Association::kNone
+  ScratchVector<Block> blocks;    ///< that have more than one assignment
 
   /// Of a component of many detections: positions in `detections` and `leaves`.
   struct Solved {
@@ -38,10 +36,11 @@ struct Component {
 /// The components of a problem's parents, each made once.
 class Components {
  public:
-  explicit Components(const AssociationProblem& problem);
+  /// What gains less than the best of a component by more than `most_loss` may be left out.
+  Components(const AssociationProblem& problem, double most_loss);
 
   /// Numbers of a parent's components; at() gives them.
-  std::vector<int> of(const AssociationProblem::Parent& parent);
+  ScratchVector<int> of(const AssociationProblem::Parent& parent);
   Component& at(int component) { return components_[component]; }
 
   /// Whether there are components of many detections. They have no blocks until take_apart().
@@ -57,15 +56,17 @@ class Components {
 
  private:
   int find(int z);
-  int known(const std::vector<int>& leaves);
-  Component made(const std::vector<int>& leaves);
+  int known(const ScratchVector<int>& leaves);
+  int* slot_of(const ScratchVector<int>& leaves);
+  Component made(const ScratchVector<int>& leaves);
 
   const AssociationProblem& problem_;
+  double most_loss_;
   bool large_ = false;
-  std::deque<Component> components_;
-  std::unordered_multimap<std::uint64_t, int> by_leaves_;
-  std::vector<int> parent_;    // of a detection, among those that share a leaf
-  std::vector<int> position_;  // of a detection in the component that is made
+  std::deque<Component, ScratchAllocator<Component>> components_;
+  ScratchVector<int> table_;   // of components by their leaves' hash; -1 where there is none
+  ScratchVector<int> parent_;    // of a detection, among those that share a leaf
+  ScratchVector<int> position_;  // of a detection in the component that is made
 };
 
 }  // namespace anchord

@@ -13,10 +13,10 @@ constexpr int kMostRounds = 100;
 
 }  // namespace
 
-void estimate_probabilities(std::vector<Pairing>& pairings, int tracks, int detections) {
-  std::vector<double> message(pairings.size(), 1);  // detection to track
-  std::vector<double> of_track(tracks), of_detection(detections);
-  std::vector<double> to_detection(pairings.size());
+void estimate_probabilities(ScratchVector<Pairing>& pairings, int tracks, int detections) {
+  ScratchVector<double> message(pairings.size(), 1);  // detection to track
+  ScratchVector<double> of_track(tracks), of_detection(detections);
+  ScratchVector<double> to_detection(pairings.size());
   double change = 1;
   for (int round = 0; round < kMostRounds && change > kSettled; ++round) {
     std::fill(of_track.begin(), of_track.end(), 1.0);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include "core/scratch.h"
 
 namespace anchord {
 
@@ -18,6 +18,6 @@ struct Pairing {
 ///
 /// Williams and Lau, "Approximate evaluation of marginal association probabilities with belief
 /// propagation", IEEE Trans. AES 50(4), 2014.
-void estimate_probabilities(std::vector<Pairing>& pairings, int tracks, int detections);
+void estimate_probabilities(ScratchVector<Pairing>& pairings, int tracks, int detections);
 
 }  // namespace anchord

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+
+#include "core/scratch.h"
 
 namespace anchord {
 
@@ -36,8 +37,8 @@ class PairGains {
 
  private:
   int leaves_;
-  std::vector<std::size_t> first_;  // per row: its first entry
-  std::vector<Entry> entries_;
+  ScratchVector<std::size_t> first_;  // per row: its first entry
+  ScratchVector<Entry> entries_;
 };
 
 }  // namespace anchord

@@ -1,28 +1,31 @@
 #pragma once
 
-#include <vector>
-
+#include "core/scratch.h"
 #include "mht/assignment.h"
 
 namespace anchord {
 
-/// All assignments of a problem, best first, found when asked for: what is left of a solved problem
-/// is split by which detection is the first to change its choice (Murty 1968), and a part is solved
-/// only when its bound comes to the top (Miller, Stone, Cox 1997). Ties come in a fixed order.
+/// All assignments of a problem, best first. Few are all found at once. Of many the next is found
+/// when asked for: what is left of a solved problem is split by which detection is the first to
+/// change its choice (Murty 1968), and a part is solved only when its bound comes to the top
+/// (Miller, Stone, Cox 1997). Ties come in a fixed order.
 class RankedAssignments {
  public:
-  struct Ranked {
-    double gain;
-    boost::container::small_vector<int, 4> leaf_of;  ///< per detection a leaf or kNone
-  };
-
   /// Assignments that gain less than the best one by more than `most_loss` may be left out.
   RankedAssignments(PairGains gains, double most_loss);
 
-  /// The i-th best, counted from 0, or null where there are no more. Valid until the next call.
-  const Ranked* at(std::size_t i);
+  /// Whether there is an i-th best, counted from 0.
+  bool has(std::size_t i);
+  /// What it gains. The i-th must be there.
+  double gain(std::size_t i) const { return ranked_[i].gain; }
+  /// What a detection is given to in it: a leaf or Assignment::kNone.
+  int leaf_of(std::size_t i, int z) const { return choices_[ranked_[i].first + z]; }
 
  private:
+  struct Ranked {
+    double gain;
+    std::size_t first;  // where its choices begin
+  };
   struct Part {
     double bound;  // gain, exact once solved
     bool solved;
@@ -37,7 +40,7 @@ class RankedAssignments {
       return bound != other.bound ? bound < other.bound : part > other.part;
     }
   };
-  void rank_one_detection();
+  void rank_all();
   void rank(const Assignment& assignment, double gain);
   void enter(Entry entry);
   void branch(Part part);
@@ -45,9 +48,10 @@ class RankedAssignments {
 
   PairGains gains_;
   double most_loss_;
-  std::vector<Ranked> ranked_;
-  std::vector<Part> parts_;
-  std::vector<Entry> heap_;
+  ScratchVector<Ranked> ranked_;
+  ScratchVector<int> choices_;
+  ScratchVector<Part> parts_;
+  ScratchVector<Entry> heap_;
 };
 
 }  // namespace anchord

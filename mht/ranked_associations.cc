@@ -14,7 +14,7 @@ constexpr double kMostReach = 100;
 }  // namespace
 
 RankedAssociations::RankedAssociations(const AssociationProblem& problem, double log_least)
-    : problem_(problem), log_least_(log_least), reach_(-log_least), components_(problem) {
+    : problem_(problem), log_least_(log_least), reach_(-log_least), components_(problem, -log_least) {
   for (const auto& parent : problem_.parents) {
     Choices& choices = choices_.emplace_back();
     choices.best = parent.log_weight;
@@ -52,10 +52,10 @@ void RankedAssociations::push(Node node) {
 void RankedAssociations::push_children(const Node& node) {
   const auto& blocks = choices_[node.parent].blocks;
   for (int b = node.last; b < static_cast<int>(blocks.size()); ++b) {
-    const double before = blocks[b]->ranked.at(node.rank[b])->gain;
-    const auto* next = blocks[b]->ranked.at(node.rank[b] + 1);
-    if (!next) continue;
-    const double log_weight = node.log_weight + (next->gain - before);
+    RankedAssignments& ranked = blocks[b]->ranked;
+    const int rank = node.rank[b];
+    if (!ranked.has(rank + 1)) continue;
+    const double log_weight = node.log_weight + (ranked.gain(rank + 1) - ranked.gain(rank));
     if (log_weight < best_ + log_least_) continue;
     Node child{log_weight, node.parent, b, node.rank, 0};
     ++child.rank[b];
@@ -83,10 +83,11 @@ Association RankedAssociations::association_of(const Node& node) {
   }
   for (std::size_t b = 0; b < choices.blocks.size(); ++b) {
     Block& block = *choices.blocks[b];
-    const auto& leaf_of = block.ranked.at(node.rank[b])->leaf_of;
-    for (std::size_t i = 0; i < block.detections.size(); ++i)
+    for (std::size_t i = 0; i < block.detections.size(); ++i) {
+      const int leaf = block.ranked.leaf_of(node.rank[b], static_cast<int>(i));
       found.leaf_of[block.detections[i]] =
-          leaf_of[i] == Assignment::kNone ? Association::kNone : block.leaves[leaf_of[i]];
+          leaf == Assignment::kNone ? Association::kNone : block.leaves[leaf];
+    }
   }
   return found;
 }

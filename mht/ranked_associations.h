@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "core/log_probability.h"
 #include "mht/association_problem.h"
@@ -25,15 +24,15 @@ class RankedAssociations {
   /// A parent with its blocks: what there is to choose.
   struct Choices {
     double best = 0;  // log-weight
-    std::vector<int> components;
-    std::vector<Block*> blocks;
+    ScratchVector<int> components;
+    ScratchVector<Block*> blocks;
   };
   /// A parent's association: for each of its blocks which one of its ranking.
   struct Node {
     double log_weight;
     int parent;
     int last;  // block that was changed last: those before stay
-    boost::container::small_vector<int, 8> rank;
+    SmallScratchVector<int, 8> rank;
     std::size_t number;  // in order of creation: breaks ties
     bool operator<(const Node& other) const {
       return log_weight != other.log_weight ? log_weight < other.log_weight : number > other.number;
@@ -51,8 +50,8 @@ class RankedAssociations {
   double best_ = kLogZero;
   std::size_t given_ = 0, created_ = 0;
   Components components_;
-  std::vector<Choices> choices_;  // per parent
-  std::vector<Node> heap_;
+  ScratchVector<Choices> choices_;  // per parent
+  ScratchVector<Node> heap_;
 };
 
 }  // namespace anchord

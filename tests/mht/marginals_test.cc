@@ -9,7 +9,7 @@ namespace anchord {
 namespace {
 
 /// Exact probabilities by trying every association.
-std::vector<double> exact(const std::vector<Pairing>& pairings, int tracks, int detections) {
+std::vector<double> exact(const ScratchVector<Pairing>& pairings, int tracks, int detections) {
   std::vector<double> sums(pairings.size(), 0.0);
   std::vector<char> used(detections, 0);
   std::vector<std::size_t> chosen;
@@ -41,7 +41,7 @@ TEST(Marginals, AreExactWithoutLoops) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 200; ++trial) {
     // A chain: track i may give detections i and i + 1.
-    std::vector<Pairing> pairings;
+    ScratchVector<Pairing> pairings;
     for (int i = 0; i < 5; ++i)
       for (int j = 0; j < 2; ++j)
         pairings.push_back({i, i + j, std::exp(10 * uniform(random) - 3), 0});
@@ -57,7 +57,7 @@ TEST(Marginals, WithLoopsTellLikelyFromUnlikely) {
   std::mt19937_64 random(2);
   double worst = 0, missed = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    std::vector<Pairing> pairings;
+    ScratchVector<Pairing> pairings;
     for (int track = 0; track < 4; ++track)
       for (int z = 0; z < 4; ++z)
         if (random() % 3 > 0) pairings.push_back({track, z, std::exp(12 * uniform(random) - 4), 0});
