@@ -133,6 +133,17 @@ class Children {
   ScratchVector<int> number_;
 };
 
+/// Makes the hypotheses of each parent weigh together what all its associations would, where only
+/// the best were formed. Else a rarer parent, of which fewer were, would lose by that each frame.
+void restore(const ScratchVector<int>& parent, const ScratchVector<double>& log_evidence,
+             HypothesisSet& hypotheses) {
+  ScratchVector<double> formed(log_evidence.size(), kLogZero);
+  for (std::size_t h = 0; h < hypotheses.size(); ++h)
+    formed[parent[h]] = log_add(formed[parent[h]], hypotheses[h].log_weight);
+  for (std::size_t h = 0; h < hypotheses.size(); ++h)
+    hypotheses[h].log_weight += std::max(0.0, log_evidence[parent[h]] - formed[parent[h]]);
+}
+
 /// What detection z starts: an anchor with one leaf, or nothing worth keeping.
 std::shared_ptr<const Leaf> birth(int z, const MapFrame& frame, const Origin& origin,
                                   std::uint64_t frame_number, const Background& background) {
@@ -182,7 +193,8 @@ std::vector<std::shared_ptr<const Cluster>> associate(
   RankedAssociations ranked(problem, background.log_least_weight);
   double total = kLogZero;
   ScratchVector<int> given(tied.leaves.size(), kMiss);  // per leaf
-  double least = kLogZero;                            // what is below has not been looked at
+  double least = kLogZero;                              // what is below has not been looked at
+  ScratchVector<int> parent_of;                         // per hypothesis
   bool heir = false;  // the most probable child of the world that was shown
   while (auto next = ranked.next()) {
     // Below this a weight stays below min_weight whatever else is found.
@@ -209,6 +221,7 @@ std::vector<std::shared_ptr<const Cluster>> associate(
       for (std::size_t a = 0; a < old_anchors; ++a) joint.anchors[a].shown = h.leaf[a];
     }
     joint.hypotheses.push_back(std::move(h));
+    parent_of.push_back(next->parent);
     const auto kept = static_cast<std::size_t>(limits.max_hypotheses);
     if (kept > 0 && joint.hypotheses.size() >= kept &&
         (joint.hypotheses.size() >= kLookAhead * kept ||
@@ -217,6 +230,7 @@ std::vector<std::shared_ptr<const Cluster>> associate(
       break;
     }
   }
+  if (least != kLogZero) restore(parent_of, ranked.log_evidence(), joint.hypotheses);
   merge_equal(joint.hypotheses);
   if (limits.scan_depth > 0) {
     merge_alike(joint, background);

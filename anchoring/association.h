@@ -26,9 +26,9 @@ struct PredictedLeaf {
 struct PredictedCluster {
   std::shared_ptr<const Cluster> cluster;
   ScratchVector<ScratchVector<PredictedLeaf>> leaves;  ///< per anchor and leaf
-  ScratchVector<char> gated;                         ///< per detection: some leaf may be given it
-  bool shown = false;                              ///< some leaf may be missed
-  bool stepped = false;                            ///< must be carried along in any case
+  ScratchVector<char> gated;                           ///< per detection: some leaf may be given it
+  bool shown = false;                                  ///< some leaf may be missed
+  bool stepped = false;                                ///< must be carried along in any case
 
   bool touched() const;
   /// Whether no leaf exists with at least this probability any more.

@@ -70,7 +70,7 @@ void add_edges(const PredictedCluster& predicted, int cluster, int& anchors,
 }  // namespace
 
 ScratchVector<Group> couple(ScratchVector<PredictedCluster> clusters, int detections,
-                          double negligible) {
+                            double negligible) {
   const std::size_t n = clusters.size();
   Ties ties(n + detections);
   if (negligible <= 0) {

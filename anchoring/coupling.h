@@ -18,6 +18,6 @@ struct Group {
 /// (estimated over all that are tied, see mht/marginals.h; 0: any). What it might have been given
 /// to otherwise is let go. Groups in order of their first cluster, then those of detections alone.
 ScratchVector<Group> couple(ScratchVector<PredictedCluster> clusters, int detections,
-                          double negligible);
+                            double negligible);
 
 }  // namespace anchord

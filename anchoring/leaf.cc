@@ -97,7 +97,7 @@ Kinematic as_model(Kinematic k, const BehaviourModel& model, int dims) {
     k.pv.setZero();
     k.vv.setZero();
   } else if (k.vv.isZero(0)) {
-    for (int i = 0; i < dims; ++i) k.vv(i, i) = model.initial_velocity_variance;
+    for (int i = 0; i < dims; ++i) k.vv(i, i) = model.initial_velocity_variance[i];
   }
   return k;
 }

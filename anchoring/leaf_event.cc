@@ -40,7 +40,7 @@ ModelState& model_of(Leaf& leaf, std::size_t m, const Background& background) {
 
 Kinematic at_rest(const Gaussian& at, const BehaviourModel& model, int dims) {
   const bool moving = model.kind == BehaviourModel::Kind::kConstantVelocity;
-  return kinematic_at(at, moving ? model.initial_velocity_variance : 0.0, dims);
+  return kinematic_at(at, moving ? model.initial_velocity_variance : ByAxis(), dims);
 }
 
 /// Weight that enters a tracked model, from a density of these moments.

@@ -80,7 +80,7 @@ void update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
   ModelState& home = leaf.models[target];
   const bool moving = models[target].kind == BehaviourModel::Kind::kConstantVelocity;
   Kinematic at_z =
-      kinematic_at(z.position, moving ? models[target].initial_velocity_variance : 0.0, dims);
+      kinematic_at(z.position, moving ? models[target].initial_velocity_variance : ByAxis(), dims);
   keep_above(at_z, sensor.pose_floor, dims);
   auto& density = std::get<Kinematic>(home.density);
   density = home.weight > 0 ? merge(home.weight, density, found, at_z) : at_z;
@@ -135,9 +135,10 @@ Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double 
       continue;
     }
     const bool moving = model.kind == BehaviourModel::Kind::kConstantVelocity;
-    leaf.models.push_back({model.initial_weight,
-                           kinematic_at(z.position, moving ? model.initial_velocity_variance : 0.0,
-                                        background.dims)});
+    leaf.models.push_back(
+        {model.initial_weight,
+         kinematic_at(z.position, moving ? model.initial_velocity_variance : ByAxis(),
+                      background.dims)});
   }
   learn_attributes(leaf, z);
   leaf.yaw = z.yaw;

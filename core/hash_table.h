@@ -7,8 +7,8 @@
 
 namespace anchord {
 
-/// Numbers by 64-bit keys that are hashes already: open addressing in scratch memory. Equal keys may
-/// come several times.
+/// Numbers by 64-bit keys that are hashes already: open addressing in scratch memory. Equal keys
+/// may come several times.
 class HashTable {
  public:
   explicit HashTable(std::size_t most) {

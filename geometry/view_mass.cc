@@ -23,6 +23,8 @@ constexpr double kClear = 8;
 /// Directions further than this from the mean, in standard deviations, hold nothing (mass 1e-7).
 constexpr double kReach = 5.7;
 constexpr double kTolerance = 3e-7;
+/// Heights below this share of a range make the ground it reaches a disc.
+constexpr double kFlat = 0.1;
 const double kRootTwoPi = std::sqrt(2 * kPi);
 
 /// The integral of s^n exp(-(s - m)^2 / 2) from a to b needs, with t = s - m: e^(-t^2/2) at the
@@ -85,6 +87,23 @@ double wedge_mass(const Vector2d& mean, const Matrix2d& covariance, double from,
                      ray_triangle_mass(tip, {std::cos(first), std::sin(first)}) -
                      ray_triangle_mass(tip, {std::cos(second), std::sin(second)});
   return std::clamp(sum, 0.0, 1.0);
+}
+
+/// Integral of c.p exp(-|p - mean|^2 / 2) over the directions from `first` to `second`: the mean's
+/// share, and by the divergence theorem what the two rays cut off.
+double wedge_moment(const WhitePlane& plane, const Vector2d& c, double first, double second) {
+  const auto edge = [&](double theta, double& share) {
+    const Vector2d v(std::cos(theta), std::sin(theta));
+    share = ray_triangle_mass(-plane.mean, v);
+    const double off = v.x() * plane.mean.y() - v.y() * plane.mean.x();
+    const double on_ray = std::exp(-off * off / 2) * kRootTwoPi / 2 *
+                          std::erfc(-v.dot(plane.mean) / std::numbers::sqrt2);
+    return on_ray * (c.x() * v.y() - c.y() * v.x());
+  };
+  double share_first, share_second;
+  const double cut = edge(second, share_second) - edge(first, share_first);
+  const double mass = second - first + 2 * kPi * (share_first - share_second);
+  return c.dot(plane.mean) * mass + cut;
 }
 
 }  // namespace
@@ -157,12 +176,21 @@ double MapView::mass(const Gaussian& density) const {
   if (clear.range && clear.bearing && type_ == View::Type::kFrustum)
     return wedge_mass({mean.x(), mean.z()}, covariance({0, 2}, {0, 2}), elevation_min_,
                       elevation_max_ - elevation_min_);
-  const double sum = dims_ == 2 ? flat_mass(mean.head<2>(), flat) : solid_mass(mean, covariance);
+  if (dims_ == 3 && clear.elevation && type_ != View::Type::kFrustum && !clear.range) {
+    // Heights matter only to how far a range reaches over the ground, a little less the higher.
+    const double height2 = mean.z() * mean.z() + covariance(2, 2);
+    if (height2 < kFlat * kFlat * range_max_ * range_max_ && range_min_ == 0)
+      return std::clamp(
+          flat_mass(mean.head<2>(), flat, std::sqrt(range_max_ * range_max_ - height2)), 0.0, 1.0);
+  }
+  const double sum = dims_ == 2 ? flat_mass(mean.head<2>(), flat, range_max_)
+                                : solid_mass(mean, covariance, clear.range);
   return std::clamp(sum, 0.0, 1.0);
 }
 
 /// 2-D: over directions, with the integral of s N along each.
-double MapView::flat_mass(const Vector2d& mean, const Matrix2d& covariance) const {
+double MapView::flat_mass(const Vector2d& mean, const Matrix2d& covariance,
+                          double range_max) const {
   const Matrix2d factor = upper_factor<2>(covariance);
   const WhitePlane plane(factor, solve_upper(factor, mean));
   const auto ray = [&](double theta) {
@@ -170,7 +198,7 @@ double MapView::flat_mass(const Vector2d& mean, const Matrix2d& covariance) cons
     const double stretch = (plane.factor * v).norm();
     const double off = v.x() * plane.mean.y() - v.y() * plane.mean.x();
     return std::exp(-off * off / 2) / (2 * kPi) *
-           first_moment(v.dot(plane.mean), range_min_ / stretch, range_max_ / stretch);
+           first_moment(v.dot(plane.mean), range_min_ / stretch, range_max / stretch);
   };
   return integrate_around(ray, plane.direction_of(bearing_from_),
                           plane.direction_of(bearing_from_ + bearing_width_), plane.peak,
@@ -179,7 +207,7 @@ double MapView::flat_mass(const Vector2d& mean, const Matrix2d& covariance) cons
 
 /// 3-D: over half-planes that hold the sensor's z axis, and in each over its directions, with the
 /// integral of s^2 N along each.
-double MapView::solid_mass(const Vector3d& mean, const Matrix3d& covariance) const {
+double MapView::solid_mass(const Vector3d& mean, const Matrix3d& covariance, bool any_range) const {
   const Matrix3d whiten = upper_factor<3>(covariance).inverse();
   const Vector3d white_mean = whiten * mean;
   const Matrix2d flat_factor = upper_factor<2>(covariance.topLeftCorner<2, 2>());
@@ -223,6 +251,8 @@ double MapView::solid_mass(const Vector3d& mean, const Matrix3d& covariance) con
              second_moment(v.dot(plane.mean), range_min_ / reach, range_max_ / reach);
     };
     const double jacobian = scale * std::exp(-off * off / 2) / (area * stretch * stretch);
+    if (any_range)
+      return jacobian * wedge_moment(plane, unfold.row(0), direction_of(low), direction_of(high));
     return jacobian * integrate_around(ray, direction_of(low), direction_of(high), plane.peak,
                                        plane.reach, inner_tolerance / jacobian, 12);
   };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/frame.h"
+#include "geometry/by_axis.h"
 #include "geometry/region.h"
 #include "knowledge/maintenance.h"
 
@@ -20,10 +21,10 @@ namespace anchord {
 struct BehaviourModel {
   enum class Kind { kConstantPosition, kConstantVelocity, kSomewhere };
   Kind kind = Kind::kConstantPosition;
-  double psd = 0;  ///< constant_position: position_psd, m^2/s; constant_velocity: m^2/s^3
-  double initial_velocity_variance = 0;  ///< constant_velocity, (m/s)^2
-  int place = -1;             ///< somewhere: index of its place, -1 for the world's bounds
-  double rate = 0;            ///< somewhere: 1/s at which every tracked model enters it
+  ByAxis psd;  ///< constant_position: position_psd, m^2/s; constant_velocity: m^2/s^3
+  ByAxis initial_velocity_variance;  ///< constant_velocity, (m/s)^2
+  int place = -1;                    ///< somewhere: index of its place, -1 for the world's bounds
+  double rate = 0;                   ///< somewhere: 1/s at which every tracked model enters it
   double initial_weight = 0;  ///< in a new anchor; those of a class sum to 1, somewhere has 0
   bool detectable = true;
   bool implied = false;  ///< somewhere: not configured; a leaf has it only after an event

@@ -8,6 +8,14 @@ namespace {
 constexpr std::size_t kMostModels = 20;
 const std::vector<std::string> kKinds = {"constant_position", "constant_velocity", "somewhere"};
 
+/// What a model says of its motion, in height times `vertical`.
+void read_by_axis(const JsonValue& value, const char* key, ByAxis& number) {
+  double plane = number.plane, vertical = 1;
+  value.read(key, plane, kNotNegative);
+  value.read("vertical", vertical, kNotNegative);
+  number = {plane, vertical * plane};
+}
+
 /// One model; `weighted` becomes true where it has an `initial_weight`.
 std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge& knowledge,
                                          bool& weighted) {
@@ -23,14 +31,14 @@ std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge
   BehaviourModel model = default_model(static_cast<BehaviourModel::Kind>(*index));
   switch (model.kind) {
     case BehaviourModel::Kind::kConstantPosition:
-      value.object_of({"kind", "position_psd", "initial_weight", "detectable"});
-      value.read("position_psd", model.psd, kNotNegative);
+      value.object_of({"kind", "position_psd", "vertical", "initial_weight", "detectable"});
+      read_by_axis(value, "position_psd", model.psd);
       break;
     case BehaviourModel::Kind::kConstantVelocity:
-      value.object_of({"kind", "acceleration_psd", "initial_velocity_variance", "initial_weight",
-                       "detectable"});
-      value.read("acceleration_psd", model.psd, kNotNegative);
-      value.read("initial_velocity_variance", model.initial_velocity_variance, kNotNegative);
+      value.object_of({"kind", "acceleration_psd", "initial_velocity_variance", "vertical",
+                       "initial_weight", "detectable"});
+      read_by_axis(value, "acceleration_psd", model.psd);
+      read_by_axis(value, "initial_velocity_variance", model.initial_velocity_variance);
       break;
     case BehaviourModel::Kind::kSomewhere:
       value.object_of({"kind", "place", "rate", "initial_weight", "detectable"});

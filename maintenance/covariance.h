@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "geometry/by_axis.h"
+
 namespace anchord {
 
 /// Covariance blocks of position and velocity, as Kinematic has them, without its means. In a 2-D
@@ -13,17 +15,17 @@ struct Covariance {
   Eigen::Matrix3d vv = Eigen::Matrix3d::Zero();  ///< (m/s)^2
 
   /// Motion over dt seconds: a random walk, or if it `moves`, white acceleration (kinematic.h).
-  void predict(double psd, bool moves, double dt, int dims) {
+  void predict(const ByAxis& psd, bool moves, double dt, int dims) {
     if (!moves) {
-      for (int i = 0; i < dims; ++i) pp(i, i) += psd * dt;
+      for (int i = 0; i < dims; ++i) pp(i, i) += psd[i] * dt;
       return;
     }
     pp += dt * (pv + pv.transpose()) + dt * dt * vv;
     pv += dt * vv;
     for (int i = 0; i < dims; ++i) {
-      pp(i, i) += psd * dt * dt * dt / 3;
-      pv(i, i) += psd * dt * dt / 2;
-      vv(i, i) += psd * dt;
+      pp(i, i) += psd[i] * dt * dt * dt / 3;
+      pv(i, i) += psd[i] * dt * dt / 2;
+      vv(i, i) += psd[i] * dt;
     }
   }
 

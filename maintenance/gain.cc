@@ -181,7 +181,7 @@ void Forecast::see_tile(int k, const Sight& sight) {
   Covariance fresh{sight.noise(subject.top_class), Eigen::Matrix3d::Zero(),
                    Eigen::Matrix3d::Zero()};
   if (subject.found_moves)
-    for (int i = 0; i < site_->dims; ++i) fresh.vv(i, i) = subject.initial_velocity_variance;
+    for (int i = 0; i < site_->dims; ++i) fresh.vv(i, i) = subject.initial_velocity_variance[i];
   if (rest.found > 0) {
     rest.covariance.predict(subject.found_psd, subject.found_moves, sight.time - rest.time,
                             site_->dims);

@@ -16,7 +16,7 @@ struct Subject {
   struct Track {
     double weight = 0;   ///< of the density given that the object exists
     Kinematic state;     ///< at the reading
-    double psd = 0;      ///< of its model: m^2/s, or m^2/s^3 where `moves`
+    ByAxis psd;          ///< of its model: m^2/s, or m^2/s^3 where `moves`
     bool moves = false;  ///< constant velocity
     double leak = 0;     ///< 1/s at which it enters `somewhere`
     bool detectable = true;
@@ -38,8 +38,8 @@ struct Subject {
   double class_entropy = 0, attribute_entropy = 0;
   std::vector<double> detection_probability;  ///< per sensor of Knowledge, over its classes
   std::vector<double> class_gain;             ///< per sensor: what one detection tells of the class
-  double initial_velocity_variance = 0;       ///< of the model a found object goes to
-  double found_psd = 0;
+  ByAxis initial_velocity_variance;           ///< of the model a found object goes to
+  ByAxis found_psd;
   bool found_moves = false;
 
   /// The mean of the heaviest component: where one looks for it.

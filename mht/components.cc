@@ -75,8 +75,17 @@ ScratchVector<Block> blocks_of(const Component& component, double reach) {
 
 }  // namespace
 
+double Component::log_total() const {
+  double sum = best;
+  for (const Block& block : blocks) sum += block.ranked.log_total() - block.ranked.gain(0);
+  return sum;
+}
+
 Components::Components(const AssociationProblem& problem, double most_loss)
-    : problem_(problem), most_loss_(most_loss), parent_(problem.detections), position_(problem.detections, -1) {}
+    : problem_(problem),
+      most_loss_(most_loss),
+      parent_(problem.detections),
+      position_(problem.detections, -1) {}
 
 int Components::find(int z) {
   while (parent_[z] != z) z = parent_[z] = parent_[parent_[z]];

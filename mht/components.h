@@ -21,7 +21,7 @@ struct Block {
 struct Component {
   ScratchVector<int> leaves;      ///< of the problem, in the order of the parent
   ScratchVector<int> detections;  ///< of the problem
-  double best = 0;              ///< what its best assignment gains
+  double best = 0;                ///< what its best assignment gains
   ScratchVector<int> best_leaf;   ///< per detection: a leaf of the problem or Association::kNone
   ScratchVector<Block> blocks;    ///< that have more than one assignment
 
@@ -31,6 +31,9 @@ struct Component {
     Assignment best;
   };
   std::optional<Solved> solved;
+
+  /// ln of the sum of e^gain over all its assignments, as far as they have been ranked.
+  double log_total() const;
 };
 
 /// The components of a problem's parents, each made once.
@@ -42,6 +45,8 @@ class Components {
   /// Numbers of a parent's components; at() gives them.
   ScratchVector<int> of(const AssociationProblem::Parent& parent);
   Component& at(int component) { return components_[component]; }
+  const Component& at(int component) const { return components_[component]; }
+  int count() const { return static_cast<int>(components_.size()); }
 
   /// Whether there are components of many detections. They have no blocks until take_apart().
   bool large() const { return large_; }
@@ -64,7 +69,7 @@ class Components {
   double most_loss_;
   bool large_ = false;
   std::deque<Component, ScratchAllocator<Component>> components_;
-  ScratchVector<int> table_;   // of components by their leaves' hash; -1 where there is none
+  ScratchVector<int> table_;     // of components by their leaves' hash; -1 where there is none
   ScratchVector<int> parent_;    // of a detection, among those that share a leaf
   ScratchVector<int> position_;  // of a detection in the component that is made
 };

@@ -24,7 +24,8 @@ void normalise(HypothesisSet& set) {
   const auto better = [](const Hypothesis& a, const Hypothesis& b) {
     return a.log_weight > b.log_weight;
   };
-  if (!std::is_sorted(set.begin(), set.end(), better)) std::stable_sort(set.begin(), set.end(), better);
+  if (!std::is_sorted(set.begin(), set.end(), better))
+    std::stable_sort(set.begin(), set.end(), better);
   const double total = log_sum(set, [](const Hypothesis& h) { return h.log_weight; });
   for (auto& h : set) h.log_weight -= total;
 }
@@ -35,8 +36,7 @@ void merge_equal(HypothesisSet& set) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < set.size(); ++i) {
     const std::uint64_t hash = hash_of(set[i]);
-    const int equal =
-        by_hash.find(hash, [&](int other) { return set[other].leaf == set[i].leaf; });
+    const int equal = by_hash.find(hash, [&](int other) { return set[other].leaf == set[i].leaf; });
     if (equal >= 0) {
       set[equal].log_weight = log_add(set[equal].log_weight, set[i].log_weight);
       continue;

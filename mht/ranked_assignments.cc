@@ -127,6 +127,10 @@ bool RankedAssignments::find_next() {
   return false;
 }
 
+double RankedAssignments::log_total() const {
+  return log_sum(ranked_, [](const Ranked& ranked) { return ranked.gain; });
+}
+
 bool RankedAssignments::has(std::size_t i) {
   while (i >= ranked_.size())
     if (!find_next()) return false;

@@ -18,6 +18,9 @@ class RankedAssignments {
   bool has(std::size_t i);
   /// What it gains. The i-th must be there.
   double gain(std::size_t i) const { return ranked_[i].gain; }
+  /// ln of the sum of e^gain over all that have been ranked so far: all there are, where they are
+  /// few.
+  double log_total() const;
   /// What a detection is given to in it: a leaf or Assignment::kNone.
   int leaf_of(std::size_t i, int z) const { return choices_[ranked_[i].first + z]; }
 

@@ -14,7 +14,10 @@ constexpr double kMostReach = 100;
 }  // namespace
 
 RankedAssociations::RankedAssociations(const AssociationProblem& problem, double log_least)
-    : problem_(problem), log_least_(log_least), reach_(-log_least), components_(problem, -log_least) {
+    : problem_(problem),
+      log_least_(log_least),
+      reach_(-log_least),
+      components_(problem, -log_least) {
   for (const auto& parent : problem_.parents) {
     Choices& choices = choices_.emplace_back();
     choices.best = parent.log_weight;
@@ -90,6 +93,18 @@ Association RankedAssociations::association_of(const Node& node) {
     }
   }
   return found;
+}
+
+ScratchVector<double> RankedAssociations::log_evidence() const {
+  ScratchVector<double> of_component;
+  for (int c = 0; c < components_.count(); ++c)
+    of_component.push_back(components_.at(c).log_total());
+  ScratchVector<double> evidence;
+  for (std::size_t p = 0; p < choices_.size(); ++p) {
+    evidence.push_back(problem_.parents[p].log_weight);
+    for (const int c : choices_[p].components) evidence.back() += of_component[c];
+  }
+  return evidence;
 }
 
 std::optional<Association> RankedAssociations::next() {

@@ -20,6 +20,10 @@ class RankedAssociations {
   /// The next best, or nothing when all have been given.
   std::optional<Association> next();
 
+  /// ln of the weight of all associations of each parent together, whether they have been given or
+  /// not; as far as large components have been ranked.
+  ScratchVector<double> log_evidence() const;
+
  private:
   /// A parent with its blocks: what there is to choose.
   struct Choices {

@@ -97,26 +97,26 @@ void keep_above_in(Kinematic& state, double floor) {
 
 }  // namespace
 
-Kinematic kinematic_at(const Gaussian& measurement, double velocity_variance, int dims) {
+Kinematic kinematic_at(const Gaussian& measurement, const ByAxis& velocity_variance, int dims) {
   Kinematic state;
   state.position = measurement.mean;
   state.pp = measurement.covariance;
-  for (int i = 0; i < dims; ++i) state.vv(i, i) = velocity_variance;
+  for (int i = 0; i < dims; ++i) state.vv(i, i) = velocity_variance[i];
   return state;
 }
 
-void predict_constant_position(Kinematic& state, double psd, double dt, int dims) {
-  for (int i = 0; i < dims; ++i) state.pp(i, i) += psd * dt;
+void predict_constant_position(Kinematic& state, const ByAxis& psd, double dt, int dims) {
+  for (int i = 0; i < dims; ++i) state.pp(i, i) += psd[i] * dt;
 }
 
-void predict_constant_velocity(Kinematic& state, double psd, double dt, int dims) {
+void predict_constant_velocity(Kinematic& state, const ByAxis& psd, double dt, int dims) {
   state.position += dt * state.velocity;
   state.pp += dt * (state.pv + state.pv.transpose()) + dt * dt * state.vv;
   state.pv += dt * state.vv;
   for (int i = 0; i < dims; ++i) {
-    state.pp(i, i) += psd * dt * dt * dt / 3;
-    state.pv(i, i) += psd * dt * dt / 2;
-    state.vv(i, i) += psd * dt;
+    state.pp(i, i) += psd[i] * dt * dt * dt / 3;
+    state.pv(i, i) += psd[i] * dt * dt / 2;
+    state.vv(i, i) += psd[i] * dt;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "geometry/by_axis.h"
 #include "geometry/gaussian.h"
 
 namespace anchord {
@@ -20,14 +21,14 @@ struct Kinematic {
 };
 
 /// A density at a first measurement: its mean and covariance, velocity 0 with that variance.
-Kinematic kinematic_at(const Gaussian& measurement, double velocity_variance, int dims);
+Kinematic kinematic_at(const Gaussian& measurement, const ByAxis& velocity_variance, int dims);
 
 /// A random walk: pp grows by psd dt (psd in m^2/s, dt >= 0 in s).
-void predict_constant_position(Kinematic& state, double psd, double dt, int dims);
+void predict_constant_position(Kinematic& state, const ByAxis& psd, double dt, int dims);
 
 /// White acceleration of power spectral density psd (m^2/s^3): per axis
 /// Q = psd [[dt^3/3, dt^2/2], [dt^2/2, dt]] (Bar-Shalom, Li, Kirubarajan 2001, section 6.2.2).
-void predict_constant_velocity(Kinematic& state, double psd, double dt, int dims);
+void predict_constant_velocity(Kinematic& state, const ByAxis& psd, double dt, int dims);
 
 /// How well a position measurement fits a predicted density.
 struct Fit {

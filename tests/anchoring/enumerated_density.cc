@@ -212,7 +212,8 @@ Moments fit(const Moments& state, const BehaviourModel& model, int dims) {
   Moments result{Eigen::VectorXd::Zero(2 * dims), Eigen::MatrixXd::Zero(2 * dims, 2 * dims)};
   result.mean.head(dims) = state.mean;
   result.covariance.topLeftCorner(dims, dims) = state.covariance;
-  result.covariance.diagonal().tail(dims).setConstant(model.initial_velocity_variance);
+  for (int i = 0; i < dims; ++i)
+    result.covariance(dims + i, dims + i) = model.initial_velocity_variance[i];
   return result;
 }
 

@@ -29,15 +29,17 @@ bool can_be_found(const BehaviourModel& m) { return m.tracked() && m.detectable;
 
 void move(Moments& state, const BehaviourModel& model, int dims, double dt) {
   if (model.kind == Kind::kConstantPosition) {
-    state.covariance.diagonal().array() += model.psd * dt;
+    for (int i = 0; i < dims; ++i) state.covariance(i, i) += model.psd[i] * dt;
     return;
   }
-  const auto one = Eigen::MatrixXd::Identity(dims, dims);
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(dims, dims);
   Eigen::MatrixXd f = Eigen::MatrixXd::Identity(2 * dims, 2 * dims), q(2 * dims, 2 * dims);
+  Eigen::MatrixXd psd = one;
+  for (int i = 0; i < dims; ++i) psd(i, i) = model.psd[i];
   f.topRightCorner(dims, dims) = dt * one;
-  q << dt * dt * dt / 3 * one, dt * dt / 2 * one, dt * dt / 2 * one, dt * one;
+  q << dt * dt * dt / 3 * psd, dt * dt / 2 * psd, dt * dt / 2 * psd, dt * psd;
   state.mean = (f * state.mean).eval();
-  state.covariance = (f * state.covariance * f.transpose() + model.psd * q).eval();
+  state.covariance = (f * state.covariance * f.transpose() + q).eval();
 }
 
 void correct(Moments& state, const Measurement& z, int dims) {

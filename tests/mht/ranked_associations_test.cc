@@ -45,7 +45,8 @@ TEST(RankedAssociations, GiveEveryAssociationOnceAndBestFirst) {
       ASSERT_TRUE(next.has_value()) << "trial " << trial << ", rank " << i;
       // 1e-9: sums of at most six numbers of size 10, in another order.
       ASSERT_NEAR(next->log_weight, expected[i].log_weight, 1e-9) << "trial " << trial;
-      ASSERT_TRUE(seen.insert({next->parent, {next->leaf_of.begin(), next->leaf_of.end()}}).second) << "given twice";
+      ASSERT_TRUE(seen.insert({next->parent, {next->leaf_of.begin(), next->leaf_of.end()}}).second)
+          << "given twice";
     }
     ASSERT_FALSE(ranked.next().has_value()) << "trial " << trial;
   }
@@ -93,7 +94,8 @@ TEST(RankedAssociations, LargeProblemsAreRankedAsIfNotTakenApart) {
       ASSERT_EQ(next.has_value(), as_one.has(i)) << "trial " << trial << ", rank " << i;
       if (!next) break;
       ASSERT_NEAR(next->log_weight, as_one.gain(i) - 1, 1e-9) << trial << ' ' << i;
-      ASSERT_TRUE(seen.insert({next->leaf_of.begin(), next->leaf_of.end()}).second) << "given twice";
+      ASSERT_TRUE(seen.insert({next->leaf_of.begin(), next->leaf_of.end()}).second)
+          << "given twice";
     }
   }
 }

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace anchord {
+
+/// A number for each axis of the map: one for x and y, one for z. A plain number holds for all.
+struct ByAxis {
+  double plane = 0, height = 0;
+
+  ByAxis() = default;
+  ByAxis(double all) : plane(all), height(all) {}  // NOLINT: a plain number is one
+  ByAxis(double in_plane, double in_height) : plane(in_plane), height(in_height) {}
+
+  double operator[](int axis) const { return axis < 2 ? plane : height; }
+};
+
+}  // namespace anchord
