@@ -13,6 +13,12 @@ namespace anchord {
 
 /// The knowledge, prepared for computing: what the engine derives from it once. Immutable.
 struct Background {
+  /// An attribute's transitions: a Markov chain over the symbols that take part, ascending.
+  struct SymbolChain {
+    std::vector<int> symbols;
+    ModelMatrix rates;  ///< 1/s
+  };
+
   /// How the behaviour models of a class follow each other.
   struct Dynamics {
     ModelMatrix rates;         ///< 1/s between models
@@ -20,6 +26,7 @@ struct Background {
     bool exchanges = false;    ///< between tracked models: their densities are merged by moments,
                                ///< so two steps are not one long one
     int first_detectable = 0;  ///< the tracked model that a found object goes to
+    std::vector<SymbolChain> changes;  ///< of attributes, as ObjectClass::changes
   };
 
   explicit Background(Knowledge knowledge);

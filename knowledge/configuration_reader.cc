@@ -124,8 +124,8 @@ void read_places(const JsonValue& root, Knowledge& knowledge) {
 
 void read_limits(const JsonValue& root, Knowledge& knowledge) {
   const auto section = root.find("hypotheses");
-  if (!section || !section->object_of(
-                      {"max", "min_weight", "gate_probability", "scan_depth", "min_existence"})) {
+  if (!section || !section->object_of({"max", "min_weight", "gate_probability", "scan_depth",
+                                       "min_existence", "min_symbol"})) {
     return;
   }
   constexpr int kMost = 1'000'000;
@@ -135,6 +135,8 @@ void read_limits(const JsonValue& root, Knowledge& knowledge) {
   section->read("gate_probability", limits.gate_probability, kAboveImpossible);
   section->read("scan_depth", limits.scan_depth, 0, kMost);
   section->read("min_existence", limits.min_existence, kBelowCertain);
+  limits.min_symbol = std::min(limits.min_symbol, limits.min_weight);
+  section->read("min_symbol", limits.min_symbol, {0, 0.1});
 }
 
 Knowledge read_knowledge(const nlohmann::json& document, ConfigurationMistakes& mistakes) {

@@ -158,6 +158,36 @@ TEST(Configuration, ClassesTakeWhatIsMissingFromDefault) {
   EXPECT_EQ(knowledge.classes[2].departure_rate, 0.25);  // not named at all
 }
 
+TEST(Configuration, AttributesChangeAtTheRatesOfAClass) {
+  const Knowledge knowledge = knowledge_of(parse_configuration(R"({
+    "world": {"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}},
+    "attributes": {"class": {"kind": "categorical", "symbols": ["banana", "candle"]},
+                   "color": {"kind": "categorical", "symbols": ["green", "yellow", "brown"]},
+                   "size": {"kind": "scalar"}},
+    "classes": {"default": {"changes": {"color": {"redraw": 0.5}, "size": {"drift": 0.25}}},
+                "banana": {"changes": {"color": {"transitions": [
+                    {"from": "green", "to": "yellow", "rate": 0.125}]}}}}})"));
+  const ObjectClass &banana = knowledge.classes[0], &candle = knowledge.classes[1];
+  ASSERT_EQ(banana.changes.size(), 1u);
+  EXPECT_EQ(banana.changes[0].attribute, knowledge.find_attribute("color"));
+  EXPECT_EQ(banana.changes[0].redraw, 0);
+  ASSERT_EQ(banana.changes[0].transitions.size(), 1u);
+  EXPECT_EQ(banana.changes[0].transitions[0].from, 0);
+  EXPECT_EQ(banana.changes[0].transitions[0].to, 1);
+  EXPECT_EQ(banana.changes[0].transitions[0].rate, 0.125);
+  ASSERT_EQ(candle.changes.size(), 2u);
+  EXPECT_EQ(candle.changes[0].redraw, 0.5);
+  EXPECT_EQ(candle.changes[1].attribute, knowledge.find_attribute("size"));
+  EXPECT_EQ(candle.changes[1].drift, 0.25);
+}
+
+TEST(Configuration, NoSymbolIsRuledOutUnlessTheEngineIsExact) {
+  EXPECT_EQ(with("").limits.min_symbol, 1e-6);
+  EXPECT_EQ(with(R"("hypotheses": {"min_weight": 1e-3})").limits.min_symbol, 1e-6);
+  EXPECT_EQ(with(R"("hypotheses": {"min_weight": 0})").limits.min_symbol, 0);
+  EXPECT_EQ(with(R"("hypotheses": {"min_weight": 0, "min_symbol": 0.01})").limits.min_symbol, 0.01);
+}
+
 TEST(Configuration, DetectionProbabilityFallsBackFromSensorToClass) {
   const Knowledge knowledge = with(R"(
     "classes": {"default": {"detection_probability": 0.1}, "ant": {"detection_probability": 0.2}},
