@@ -95,13 +95,15 @@ Background::Background(Knowledge k)
     : knowledge(with_somewhere(std::move(k))),
       dims(knowledge.dims),
       grid(Grid::over(knowledge.bounds_min, knowledge.bounds_max, knowledge.cell)),
-      tiling(std::make_shared<Tiling>(grid)) {
+      tiling(std::make_shared<Tiling>(grid)),
+      walls(knowledge.walls) {
   footprints_.push_back(std::make_shared<Footprint>(Footprint::of(knowledge.world(), grid, dims)));
   for (const Place& place : knowledge.places)
     footprints_.push_back(std::make_shared<Footprint>(Footprint::of(place.region, grid, dims)));
   compare_places();
   for (const ObjectClass& c : knowledge.classes) {
     dynamics.push_back(dynamics_of(c));
+    has_extents = has_extents || !c.extent.isZero(0);
     arrivals.push_back(std::make_shared<ArrivalModel>(ArrivalModel{
         c.undetected_intensity, c.departure_rate, c.arrival_rate, concentrated(c, *this)}));
   }

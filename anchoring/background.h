@@ -36,6 +36,8 @@ struct Background {
   std::vector<Dynamics> dynamics;  ///< per class
   Grid grid;                       ///< over the bounds
   std::shared_ptr<const Tiling> tiling;
+  Walls walls;
+  bool has_extents = false;  ///< of any class: objects hide each other
   std::vector<std::shared_ptr<const ArrivalModel>> arrivals;  ///< per class
   double gate_distance2;    ///< squared Mahalanobis distance; infinite without gate
   double log_least_weight;  ///< ln of Limits::min_weight; minus infinity if 0

@@ -50,7 +50,8 @@ class [[nodiscard]] Configuration {
 ///
 /// Unknown keys are mistakes. What may be left out, and what then holds:
 /// - `world`: `frame` "map", `dimensions` 3, `max_lateness` 0.5 s, `cell` 0.25 m, doubled
-///   until the world has at most kMaxCells cells. `bounds` may not be left out.
+///   until the world has at most kMaxCells cells. `bounds` may not be left out. No `walls`; one is
+///   [[x, y], [x, y]], or {"line": that, "z": [least, most]} (default: of any height).
 /// - `places[]`: `kind` "", `parent` none, `z` the world's own.
 /// - a scalar attribute: `unit` "", no `predicates` (a bound may be null: none on that side; they
 ///   are ordered by their bounds), `reference_density` 1 over the span of the finite predicate
@@ -85,8 +86,8 @@ class [[nodiscard]] Configuration {
 ///   `min_existence` 1e-4; `min_symbol` 1e-6, or `min_weight` where that is less.
 /// - `maintenance`: `planner` "greedy" (or "lookahead"), `threshold` 1 nat, `omega` 0.75,
 ///   `gain_norm` 5 nat, `cost_scale` the diagonal of the bounds, `speed` 0.5 m/s, `step` 1 s,
-///   `clearance` 0.3 m, `horizon` 4, `timeout` 60 s, `enabled` false, no `walls`
-///   ([[[x, y], [x, y]], ...]); `actions` grab and navigate verify "object", release "none".
+///   `clearance` 0.3 m, `horizon` 4, `timeout` 60 s, `enabled` false;
+///   `actions` grab and navigate verify "object", release "none".
 Configuration read_configuration(const std::filesystem::path& file);
 
 /// The same from memory. Includes are relative to `directory`; if that is empty, they are mistakes

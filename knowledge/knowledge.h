@@ -9,6 +9,7 @@
 
 #include "core/frame.h"
 #include "geometry/region.h"
+#include "geometry/walls.h"
 #include "knowledge/maintenance.h"
 
 namespace anchord {
@@ -129,6 +130,7 @@ struct Knowledge {
   Eigen::Vector3d bounds_max = Eigen::Vector3d::Zero();
   double cell = 0.25;         ///< m
   double max_lateness = 0.5;  ///< s
+  std::vector<Wall> walls;    ///< neither sight nor way passes
   std::vector<Place> places;
   std::vector<Attribute> attributes;
   int class_attribute = -1;          ///< index of the attribute `class`, or -1

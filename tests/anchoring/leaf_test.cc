@@ -71,9 +71,9 @@ class Leaves : public testing::Test {
       give(leaf, f.detections[0], *f.sensor, background());
       return;
     }
-    const Visibility visibility(f.view, background());
+    const Visibility visibility(f.view, f.eye, background());
     const auto& p = f.sensor->detection_probability;
-    give_nothing(leaf, visibility.of(leaf, p), visibility, p, background());
+    give_nothing(leaf, visibility.of(leaf, p, {}, 0), visibility, p, background());
   }
 
   Leaf random_leaf() {

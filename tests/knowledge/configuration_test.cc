@@ -106,6 +106,15 @@ TEST(Configuration, PlacesKnowTheirParentsDepthsAndHeights) {
   EXPECT_EQ(knowledge.places[1].region.area(), 12);  // 4 x 3
 }
 
+TEST(Configuration, WallsMayHaveHeights) {
+  const Knowledge knowledge = knowledge_of(parse_configuration(
+      R"({"world": {"bounds": {"min": [0, 0, 0], "max": [9, 9, 3]},
+          "walls": [[[1, 2], [3, 4]], {"line": [[5, 6], [7, 8]], "z": [0, 1.5]}]}})"));
+  ASSERT_EQ(knowledge.walls.size(), 2u);
+  EXPECT_EQ(knowledge.walls[0], (Wall{{1, 2}, {3, 4}}));
+  EXPECT_EQ(knowledge.walls[1], (Wall{{5, 6}, {7, 8}, 0, 1.5}));
+}
+
 TEST(Configuration, PredicatesAreInOrderAndSetTheReferenceDensity) {
   const Knowledge knowledge = with("");
   const Attribute& size =
