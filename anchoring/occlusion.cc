@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kFar = 5;        // standard deviations; beyond them lies 6e-7
+constexpr double kHidden = 1e-9;  // of a chance to be seen: what else hides it does not matter
 constexpr double kBeside = 0.05;  // of the distance: corners beside the eye count as this far ahead
 constexpr double kLeast = 1e-12;  // m^2, of a variance: an exact position is a step
 
@@ -170,6 +171,7 @@ double Occlusion::clear(const Gaussian& density, std::uint64_t birth) const {
     for (int k = begins_[bin]; k < begins_[bin + 1]; ++k) {
       const Body& body = bodies_[in_bin_[k]];
       if (body.nearest > farthest) break;
+      if (clear < kHidden) return clear;
       // One that stands in several bins counts in the first.
       if (i > 0 && (bin != body.first_bin || body.in(bins.first))) continue;
       if (body.birth != birth) clear *= 1 - body.p * hides(body, from_eye, density.covariance);
