@@ -53,7 +53,7 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
                             const Background& background);
 PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame& frame,
                          const std::vector<Origin>& origins, const Visibility& visibility,
-                         Nearby& nearby, const Background& background);
+                         const Occlusion& occlusion, Nearby& nearby, const Background& background);
 /// Associates `detections` (indices into the frame, ascending) with the clusters that they tie
 /// together: the clusters after the frame. Without clusters each detection starts one of its own.
 std::vector<std::shared_ptr<const Cluster>> associate(

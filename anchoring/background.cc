@@ -26,6 +26,23 @@ Knowledge with_somewhere(Knowledge knowledge) {
   return knowledge;
 }
 
+Background::SymbolChain chain_of(const AttributeChange& change) {
+  Background::SymbolChain chain;
+  for (const Transition& t : change.transitions)
+    for (int symbol : {t.from, t.to}) chain.symbols.push_back(symbol);
+  std::sort(chain.symbols.begin(), chain.symbols.end());
+  chain.symbols.erase(std::unique(chain.symbols.begin(), chain.symbols.end()), chain.symbols.end());
+  const auto n = static_cast<Eigen::Index>(chain.symbols.size());
+  const auto place_of = [&](int symbol) {
+    return std::lower_bound(chain.symbols.begin(), chain.symbols.end(), symbol) -
+           chain.symbols.begin();
+  };
+  chain.rates = ModelMatrix::Zero(n, n);
+  for (const Transition& t : change.transitions)
+    chain.rates(place_of(t.from), place_of(t.to)) += t.rate;
+  return chain;
+}
+
 Background::Dynamics dynamics_of(const ObjectClass& c) {
   // An implied model is the last.
   const int n = static_cast<int>(c.models.size()) - (c.models.back().implied ? 1 : 0);
@@ -40,6 +57,7 @@ Background::Dynamics dynamics_of(const ObjectClass& c) {
     if (t.rate > 0 && c.models[t.from].tracked() && c.models[t.to].tracked()) d.exchanges = true;
   }
   d.moves = d.rates.maxCoeff() > 0;
+  for (const AttributeChange& change : c.changes) d.changes.push_back(chain_of(change));
   while (!c.models[d.first_detectable].tracked() || !c.models[d.first_detectable].detectable)
     ++d.first_detectable;
   return d;
@@ -77,13 +95,15 @@ Background::Background(Knowledge k)
     : knowledge(with_somewhere(std::move(k))),
       dims(knowledge.dims),
       grid(Grid::over(knowledge.bounds_min, knowledge.bounds_max, knowledge.cell)),
-      tiling(std::make_shared<Tiling>(grid)) {
+      tiling(std::make_shared<Tiling>(grid)),
+      walls(knowledge.walls) {
   footprints_.push_back(std::make_shared<Footprint>(Footprint::of(knowledge.world(), grid, dims)));
   for (const Place& place : knowledge.places)
     footprints_.push_back(std::make_shared<Footprint>(Footprint::of(place.region, grid, dims)));
   compare_places();
   for (const ObjectClass& c : knowledge.classes) {
     dynamics.push_back(dynamics_of(c));
+    has_extents = has_extents || !c.extent.isZero(0);
     arrivals.push_back(std::make_shared<ArrivalModel>(ArrivalModel{
         c.undetected_intensity, c.departure_rate, c.arrival_rate, concentrated(c, *this)}));
   }

@@ -13,6 +13,12 @@ namespace anchord {
 
 /// The knowledge, prepared for computing: what the engine derives from it once. Immutable.
 struct Background {
+  /// An attribute's transitions: a Markov chain over the symbols that take part, ascending.
+  struct SymbolChain {
+    std::vector<int> symbols;
+    ModelMatrix rates;  ///< 1/s
+  };
+
   /// How the behaviour models of a class follow each other.
   struct Dynamics {
     ModelMatrix rates;         ///< 1/s between models
@@ -20,6 +26,7 @@ struct Background {
     bool exchanges = false;    ///< between tracked models: their densities are merged by moments,
                                ///< so two steps are not one long one
     int first_detectable = 0;  ///< the tracked model that a found object goes to
+    std::vector<SymbolChain> changes;  ///< of attributes, as ObjectClass::changes
   };
 
   explicit Background(Knowledge knowledge);
@@ -29,6 +36,8 @@ struct Background {
   std::vector<Dynamics> dynamics;  ///< per class
   Grid grid;                       ///< over the bounds
   std::shared_ptr<const Tiling> tiling;
+  Walls walls;
+  bool has_extents = false;  ///< of any class: objects hide each other
   std::vector<std::shared_ptr<const ArrivalModel>> arrivals;  ///< per class
   double gate_distance2;    ///< squared Mahalanobis distance; infinite without gate
   double log_least_weight;  ///< ln of Limits::min_weight; minus infinity if 0

@@ -53,7 +53,7 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
 
 PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame& frame,
                          const std::vector<Origin>& origins, const Visibility& visibility,
-                         Nearby& nearby, const Background& background) {
+                         const Occlusion& occlusion, Nearby& nearby, const Background& background) {
   PredictedCluster out;
   out.gated.assign(frame.detections.size(), 0);
   out.leaves.resize(cluster->anchors.size());
@@ -63,7 +63,8 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
       PredictedLeaf& predicted = out.leaves[a].emplace_back();
       predicted.leaf = *leaf;
       predict(predicted.leaf, frame.utime, background);
-      predicted.shown = visibility.of(predicted.leaf, frame.sensor->detection_probability);
+      predicted.shown = visibility.of(predicted.leaf, frame.sensor->detection_probability,
+                                      occlusion, cluster->anchors[a].anchor->birth);
       predicted.log_miss = std::log1p(-predicted.leaf.existence * predicted.shown.q());
       out.shown = out.shown || predicted.shown.q() > 0;
       // Where two steps are not one long one, every frame must be a step.
@@ -90,12 +91,13 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   ++belief.frames;
   const std::size_t detections = frame.detections.size();
   const auto from = origins(belief, frame, background);
+  const Occlusion occlusion(belief, frame, background);
 
   Nearby nearby(frame, background);
   std::vector<std::shared_ptr<const Cluster>> untouched;
   ScratchVector<PredictedCluster> touched;
   for (auto& cluster : belief.clusters) {
-    auto predicted = predict(cluster, frame, from, visibility, nearby, background);
+    auto predicted = predict(cluster, frame, from, visibility, occlusion, nearby, background);
     if (predicted.touched())
       touched.push_back(std::move(predicted));
     else if (!predicted.departed(background.knowledge.limits.min_existence))

@@ -47,6 +47,32 @@ void flow(Leaf& leaf, double dt, const Background& background) {
   }
 }
 
+/// Attributes change at the rates of the class whose models the leaf has.
+void change_attributes(Leaf& leaf, double dt, const Background& background) {
+  const auto& changes = background.object_class(leaf.model_class).changes;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const auto belief =
+        std::find_if(leaf.attributes.begin(), leaf.attributes.end(),
+                     [&](const AttributeBelief& b) { return b.attribute == changes[i].attribute; });
+    if (belief == leaf.attributes.end()) continue;
+    std::vector<double>& b = belief->symbols;
+    if (b.empty()) {
+      belief->variance += changes[i].drift * dt;
+    } else if (changes[i].redraw > 0) {
+      const double drawn = -std::expm1(-changes[i].redraw * dt);
+      for (double& s : b) s += drawn * (1 / static_cast<double>(b.size()) - s);
+    } else if (!changes[i].transitions.empty()) {
+      const auto& chain = background.dynamics[leaf.model_class].changes[i];
+      const ModelMatrix p = transition_probabilities(chain.rates, dt);
+      const auto n = static_cast<Eigen::Index>(chain.symbols.size());
+      Eigen::RowVectorXd before(n);
+      for (Eigen::Index s = 0; s < n; ++s) before[s] = b[chain.symbols[s]];
+      const Eigen::RowVectorXd after = before * p;
+      for (Eigen::Index s = 0; s < n; ++s) b[chain.symbols[s]] = after[s];
+    }
+  }
+}
+
 /// ln of a model's share in the likelihood of a position, and whether it lies in the model's gate.
 struct PositionFit {
   double log_likelihood = kLogZero;
@@ -124,7 +150,9 @@ const AttributeBelief* Leaf::attribute(int index) const {
 void predict(Leaf& leaf, Utime utime, const Background& background) {
   const double dt = seconds_between(leaf.utime, utime);
   leaf.utime = utime;
-  if (dt == 0 || leaf.held) return;
+  if (dt == 0) return;
+  change_attributes(leaf, dt, background);
+  if (leaf.held) return;
   const auto before = leaf.classes;
   double stays = 0;
   bool leaves = false;

@@ -61,7 +61,7 @@ struct LeafVisibility {
 /// velocity, constant_velocity begins with 0 and its initial variance.
 Kinematic as_model(Kinematic density, const BehaviourModel& model, int dims);
 
-/// Carries a leaf to `utime`: departure, behaviour weights, densities.
+/// Carries a leaf to `utime`: attributes, departure, behaviour weights, densities.
 void predict(Leaf& leaf, Utime utime, const Background& background);
 
 /// ln g(z | leaf) of a predicted leaf, not yet counting r; kLogZero where it cannot be.

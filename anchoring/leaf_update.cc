@@ -16,16 +16,28 @@ void scale_to_one(Container& values) {
     for (double& v : values) v /= sum;
 }
 
-AttributeBelief first_belief(const AttributeEvidence& evidence) {
+/// Normalises a belief over symbols. What a sensor says in one frame it says again in the next, for
+/// the same reasons: many wrong reports are not as many proofs, so none is ruled out.
+template <typename Container>
+void normalise(Container& symbols, const Background& background) {
+  scale_to_one(symbols);
+  const double least = background.knowledge.limits.min_symbol;
+  if (*std::min_element(symbols.begin(), symbols.end()) >= least) return;
+  for (double& s : symbols) s = std::max(s, least);
+  scale_to_one(symbols);
+}
+
+AttributeBelief first_belief(const AttributeEvidence& evidence, const Background& background) {
   AttributeBelief belief{evidence.attribute, evidence.ratio, evidence.mean, evidence.variance};
-  scale_to_one(belief.symbols);
+  if (!belief.symbols.empty()) normalise(belief.symbols, background);
   return belief;
 }
 
-void learn(AttributeBelief& belief, const AttributeEvidence& evidence) {
+void learn(AttributeBelief& belief, const AttributeEvidence& evidence,
+           const Background& background) {
   if (!belief.symbols.empty()) {
     for (std::size_t s = 0; s < belief.symbols.size(); ++s) belief.symbols[s] *= evidence.ratio[s];
-    scale_to_one(belief.symbols);
+    normalise(belief.symbols, background);
     return;
   }
   const double gain = belief.variance / (belief.variance + evidence.variance);
@@ -33,15 +45,15 @@ void learn(AttributeBelief& belief, const AttributeEvidence& evidence) {
   belief.variance *= 1 - gain;
 }
 
-void learn_attributes(Leaf& leaf, const MapDetection& z) {
+void learn_attributes(Leaf& leaf, const MapDetection& z, const Background& background) {
   for (const auto& evidence : z.attributes) {
     auto at = std::lower_bound(
         leaf.attributes.begin(), leaf.attributes.end(), evidence.attribute,
         [](const AttributeBelief& b, int attribute) { return b.attribute < attribute; });
     if (at != leaf.attributes.end() && at->attribute == evidence.attribute)
-      learn(*at, evidence);
+      learn(*at, evidence, background);
     else
-      leaf.attributes.insert(at, first_belief(evidence));
+      leaf.attributes.insert(at, first_belief(evidence, background));
   }
 }
 
@@ -95,8 +107,8 @@ void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Backgro
   update_models(leaf, z, sensor, background);
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
     leaf.classes[c] *= sensor.detection_probability[c] * z.class_ratio[c];
-  scale_to_one(leaf.classes);
-  learn_attributes(leaf, z);
+  normalise(leaf.classes, background);
+  learn_attributes(leaf, z, background);
   if (z.yaw) leaf.yaw = z.yaw;
   follow_class(leaf, background);
 }
@@ -108,7 +120,7 @@ void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& vis
   leaf.existence *= (1 - q) / (1 - leaf.existence * q);
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
     leaf.classes[c] *= (1 - detection_probability[c] * v) / (1 - q);
-  scale_to_one(leaf.classes);  // to rounding: they sum to 1 already
+  normalise(leaf.classes, background);
   double sum = 0;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     ModelState& state = leaf.models[m];
@@ -126,7 +138,7 @@ Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double 
   Leaf leaf;
   leaf.existence = existence;
   leaf.classes.assign(terms.begin(), terms.end());
-  scale_to_one(leaf.classes);
+  normalise(leaf.classes, background);
   leaf.model_class = leaf.top_class();
   for (const BehaviourModel& model : background.object_class(leaf.model_class).models) {
     if (model.implied) break;
@@ -140,7 +152,7 @@ Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double 
          kinematic_at(z.position, moving ? model.initial_velocity_variance : ByAxis(),
                       background.dims)});
   }
-  learn_attributes(leaf, z);
+  learn_attributes(leaf, z, background);
   leaf.yaw = z.yaw;
   leaf.utime = leaf.last_seen = utime;
   return leaf;

@@ -163,6 +163,10 @@ Result<MapFrame> place_in_map(const Frame& frame, const Background& background) 
   auto placed = MapView::place(view, frame.pose, background.dims);
   if (!placed) return placed.error();
   out.view = *placed;
+  if (frame.pose) {
+    const auto& [x, y, z] = frame.pose->position;
+    out.eye.emplace(x, y, background.dims == 3 ? z : 0.0);
+  }
   out.detections.reserve(frame.detections.size());
   for (std::size_t i = 0; i < frame.detections.size(); ++i) {
     auto detection =

@@ -36,6 +36,7 @@ struct MapFrame {
   std::string robot, sensor_name;
   const Sensor* sensor = nullptr;  ///< in the Background
   MapView view;
+  std::optional<Eigen::Vector3d> eye;  ///< where the sensor was, if it said so
   std::vector<MapDetection> detections;
 };
 

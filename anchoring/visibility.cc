@@ -1,11 +1,31 @@
 #include "anchoring/visibility.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/standard_normal.h"
 
 namespace anchord {
 namespace {
 
-Look look_at(const MapView& view, const Tiling& tiling) {
+/// The share of a box that no wall hides: of points spread evenly, four to a column's height.
+double clear_share(const Walls& walls, const Eigen::Vector3d& eye, const Eigen::Vector3d& low,
+                   const Eigen::Vector3d& high, int dims) {
+  const int up = dims == 3 ? 4 : 1;
+  int clear = 0;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j)
+      for (int k = 0; k < up; ++k) {
+        const Eigen::Vector3d at((i + 0.5) / 2, (j + 0.5) / 2, (k + 0.5) / up);
+        clear += !walls.hide(eye, low + at.cwiseProduct(high - low));
+      }
+  return static_cast<double>(clear) / (4 * up);
+}
+
+Look look_at(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
+             const Background& background) {
+  const Tiling& tiling = *background.tiling;
   Look look;
   if (view.sees_nothing()) return look;
   const Grid& grid = tiling.grid;
@@ -20,8 +40,10 @@ Look look_at(const MapView& view, const Tiling& tiling) {
     for (int j = 0; j < Tiling::kEdge && y0 + j < grid.rows; ++j)
       for (int i = 0; i < Tiling::kEdge && x0 + i < grid.columns; ++i) {
         const int cell = (y0 + j) * grid.columns + x0 + i;
-        const double share =
-            view.sees_everything() ? 1.0 : view.share(grid.corner_min(cell), grid.corner_max(cell));
+        const Eigen::Vector3d low = grid.corner_min(cell), high = grid.corner_max(cell);
+        double share = view.sees_everything() ? 1.0 : view.share(low, high);
+        if (eye && share > 0)
+          share *= clear_share(background.walls, *eye, low, high, background.dims);
         tile.share[j * Tiling::kEdge + i] = share;
         any = any || share > 0;
       }
@@ -32,16 +54,60 @@ Look look_at(const MapView& view, const Tiling& tiling) {
 
 }  // namespace
 
-Visibility::Visibility(const MapView& view, const Background& background)
-    : view_(view), background_(&background), look_(look_at(view, *background.tiling)) {}
+Visibility::Visibility(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
+                       const Background& background)
+    : view_(view),
+      eye_(background.walls.none() ? std::nullopt : eye),
+      background_(&background),
+      look_(look_at(view, eye_, background)) {}
+
+bool Visibility::same_for(const MapFrame& frame) const {
+  return view_ == frame.view && (background_->walls.none() || eye_ == frame.eye);
+}
 
 const std::vector<double>& Visibility::of(const Footprint& footprint) const {
   auto it = footprints_.find(&footprint);
-  if (it == footprints_.end()) it = footprints_.emplace(&footprint, footprint.visible(view_)).first;
-  return it->second;
+  if (it != footprints_.end()) return it->second;
+  std::vector<double> share = footprint.visible(view_);
+  for (std::size_t i = 0; eye_ && i < share.size(); ++i)
+    if (share[i] > 0)
+      share[i] *=
+          clear_share(background_->walls, *eye_, footprint.grid.corner_min(footprint.cells[i]),
+                      footprint.grid.corner_max(footprint.cells[i]), background_->dims);
+  return footprints_.emplace(&footprint, std::move(share)).first->second;
 }
 
-LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_detect) const {
+double Visibility::clear_of_walls(const Gaussian& density) const {
+  // Points of equal probability: most of them across the line of sight, where walls end.
+  static constexpr std::array<double, 7> kAcross{-1.4652337927, -0.7916386078, -0.3661063568, 0,
+                                                 0.3661063568,  0.7916386078,  1.4652337927};
+  static constexpr std::array<double, 3> kElse{-0.9674215661, 0, 0.9674215661};
+  const Eigen::Vector3d towards = density.mean - *eye_;
+  const double bearing = std::atan2(towards.y(), towards.x());
+  Eigen::Matrix3d axes;  // upward, along, across
+  axes << 0, std::cos(bearing), -std::sin(bearing), 0, std::sin(bearing), std::cos(bearing), 1, 0,
+      0;
+  const Eigen::Matrix3d factor =
+      axes * upper_factor<3>(axes.transpose() * density.covariance * axes);
+  const std::size_t up = background_->dims == 3 ? kElse.size() : 1;
+  int in_view = 0, clear = 0, clear_at_all = 0;
+  for (const double across : kAcross)
+    for (const double along : kElse)
+      for (std::size_t k = 0; k < up; ++k) {
+        const double upward = up > 1 ? kElse[k] : 0;
+        const Eigen::Vector3d at = density.mean + factor * Eigen::Vector3d(upward, along, across);
+        const bool unhidden = !background_->walls.hide(*eye_, at);
+        clear_at_all += unhidden;
+        if (!view_.contains(at)) continue;
+        ++in_view;
+        clear += unhidden;
+      }
+  if (in_view > 0) return static_cast<double>(clear) / in_view;
+  return clear_at_all / static_cast<double>(kAcross.size() * kElse.size() * up);
+}
+
+LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_detect,
+                              const Occlusion& occlusion, std::uint64_t birth) const {
   LeafVisibility shown;
   for (std::size_t c = 0; c < leaf.classes.size(); ++c) shown.p += leaf.classes[c] * p_detect[c];
   shown.v_model.assign(leaf.models.size(), 0.0);
@@ -49,12 +115,16 @@ LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_det
   const auto& models = background_->object_class(leaf.model_class).models;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     if (!models[m].detectable || leaf.models[m].weight <= 0) continue;
-    const auto& density = leaf.models[m].density;
-    const double mass =
-        std::holds_alternative<Kinematic>(density)
-            ? view_.mass(std::get<Kinematic>(density).position_density())
-            : std::get<Somewhere>(density).mass(of(*std::get<Somewhere>(density).footprint()));
-    shown.v_model[m] = mass;
+    double& mass = shown.v_model[m];
+    if (const auto* kinematic = std::get_if<Kinematic>(&leaf.models[m].density)) {
+      const Gaussian density = kinematic->position_density();
+      mass = view_.mass(density);
+      if (mass > 0 && eye_) mass *= clear_of_walls(density);
+      if (mass > 0 && !occlusion.none()) mass *= occlusion.clear(density, birth);
+    } else {
+      const auto& somewhere = std::get<Somewhere>(leaf.models[m].density);
+      mass = somewhere.mass(of(*somewhere.footprint()));
+    }
     shown.v += leaf.models[m].weight * mass;
   }
   shown.v = std::min(shown.v, 1.0);

@@ -5,28 +5,39 @@
 #include <vector>
 
 #include "anchoring/leaf.h"
+#include "anchoring/occlusion.h"
 #include "geometry/view.h"
 
 namespace anchord {
 
-/// What one view shows of the world: computed once per view, and kept while the view stays.
+/// What one view shows of the world: computed once per view, and kept while the view stays. A wall
+/// hides what is behind it from an eye; without one the view alone counts.
 class Visibility {
  public:
-  Visibility(const MapView& view, const Background& background);
+  Visibility(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
+             const Background& background);
 
-  const MapView& view() const { return view_; }
+  /// Whether this is what another frame's view shows, too.
+  bool same_for(const MapFrame& frame) const;
 
-  /// What the view means for a predicted leaf.
-  LeafVisibility of(const Leaf& leaf, const std::vector<double>& detection_probability) const;
+  /// What the view means for a predicted leaf of the anchor `birth`, which other objects may hide
+  /// in this frame.
+  LeafVisibility of(const Leaf& leaf, const std::vector<double>& detection_probability,
+                    const Occlusion& occlusion, std::uint64_t birth) const;
 
-  /// Per cell of a footprint the share in view; the footprint is one of the Background's.
+  /// Per cell of a footprint the share in view; the footprint is one of the Background's. Objects
+  /// hide nothing of it.
   const std::vector<double>& of(const Footprint& footprint) const;
 
-  /// Per cell of the world's grid the share in view.
+  /// Per cell of the world's grid the share in view, likewise.
   const Look& look() const { return look_; }
 
  private:
+  /// The share of the part in view of a density that no wall hides.
+  double clear_of_walls(const Gaussian& density) const;
+
   MapView view_;
+  std::optional<Eigen::Vector3d> eye_;  ///< none where there are no walls
   const Background* background_;
   Look look_;
   mutable std::map<const Footprint*, std::vector<double>> footprints_;  // filled when asked for

@@ -50,8 +50,8 @@ std::optional<Utime> World::newest(const Frame& frame) const {
 
 const Visibility& World::visibility(const MapFrame& frame) {
   auto& kept = visibility_[{frame.robot, frame.sensor_name}];
-  if (!kept || kept->view() != frame.view)
-    kept = std::make_shared<const Visibility>(frame.view, *background_);
+  if (!kept || !kept->same_for(frame))
+    kept = std::make_shared<const Visibility>(frame.view, frame.eye, *background_);
   return *kept;
 }
 

@@ -20,7 +20,8 @@ Knowledge house(const std::string& planner, bool walls) {
     [[7, 0], [7, 3]], [[7, 4], [7, 11]], [[7, 12], [7, 15]],
     [[13, 0], [13, 3]], [[13, 4], [13, 11]], [[13, 12], [13, 15]],
     [[0, 0], [20, 0]], [[20, 0], [20, 15]], [[20, 15], [0, 15]], [[0, 15], [0, 0]]])";
-  return parse_configuration(R"({"world": {"bounds": {"min": [0, 0, 0], "max": [20, 15, 3]}},
+  return parse_configuration(R"({"world": {"bounds": {"min": [0, 0, 0], "max": [20, 15, 3]})" +
+                             (walls ? rooms : "") + R"(},
     "sensors": {
       "wide": {"view": {"type": "frustum", "hfov": 1, "vfov": 0.8, "range": [0.5, 4]},
                  "noise": [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0.001],
@@ -29,7 +30,7 @@ Knowledge house(const std::string& planner, bool walls) {
                   "noise": [0.0001, 0, 0, 0, 0.0001, 0, 0, 0, 0.0001],
                   "verification": {"mount": {"position": [0.1, 0, 0.9]}, "dwell": 2}}},
     "maintenance": {"threshold": 1, "planner": ")" +
-                             planner + "\"" + (walls ? rooms : "") + "}}")
+                             planner + "\"}}")
       .knowledge();
 }
 

@@ -10,6 +10,7 @@ struct ByAxis {
   ByAxis(double all) : plane(all), height(all) {}  // NOLINT: a plain number is one
   ByAxis(double in_plane, double in_height) : plane(in_plane), height(in_height) {}
 
+  bool operator==(const ByAxis&) const = default;
   double operator[](int axis) const { return axis < 2 ? plane : height; }
 };
 

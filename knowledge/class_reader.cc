@@ -96,7 +96,7 @@ bool fit(const std::vector<Transition>& transitions, const std::vector<Behaviour
 
 /// A class: what `value` says, and else as `base` is.
 ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge& knowledge) {
-  if (!value.object_of({"models", "transitions", "detection_probability", "arrival_rate",
+  if (!value.object_of({"models", "transitions", "changes", "detection_probability", "arrival_rate",
                         "arrivals", "departure_rate", "undetected_intensity", "extent"})) {
     return base;
   }
@@ -112,6 +112,7 @@ ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge
   if (const auto transitions = value.find("transitions")) {
     base.transitions = read_transitions(*transitions, base.models);
   }
+  if (const auto changes = value.find("changes")) base.changes = read_changes(*changes, knowledge);
   value.read("detection_probability", base.detection_probability, kBelowCertain);
   value.read("arrival_rate", base.arrival_rate, kNotNegative);
   value.read("departure_rate", base.departure_rate, kRate);

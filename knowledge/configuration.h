@@ -50,7 +50,8 @@ class [[nodiscard]] Configuration {
 ///
 /// Unknown keys are mistakes. What may be left out, and what then holds:
 /// - `world`: `frame` "map", `dimensions` 3, `max_lateness` 0.5 s, `cell` 0.25 m, doubled
-///   until the world has at most kMaxCells cells. `bounds` may not be left out.
+///   until the world has at most kMaxCells cells. `bounds` may not be left out. No `walls`; one is
+///   [[x, y], [x, y]], or {"line": that, "z": [least, most]} (default: of any height).
 /// - `places[]`: `kind` "", `parent` none, `z` the world's own.
 /// - a scalar attribute: `unit` "", no `predicates` (a bound may be null: none on that side; they
 ///   are ordered by their bounds), `reference_density` 1 over the span of the finite predicate
@@ -59,7 +60,9 @@ class [[nodiscard]] Configuration {
 ///   constant_velocity model with `acceleration_psd` 0.1 m^2/s^3 and `initial_velocity_variance`
 ///   0.01 (m/s)^2, beside it `somewhere` in the world at `rate` 0.001 /s;
 ///   `detection_probability` 0.9; `undetected_intensity` 0.01 per m^d, `arrival_rate` 1e-4 per
-///   m^d and s, `departure_rate` 0; no `arrivals`, no `extent`.
+///   m^d and s, `departure_rate` 0; no `arrivals`, no `extent`, no `changes`. Those are by
+///   attribute: of a scalar {"drift": unit^2/s}; of a categorical one {"redraw": 1/s}, or
+///   {"transitions": [{"from", "to", "rate"}]} between at most kMostChanging of its symbols.
 ///   `transitions` count the models of the class that has them; a class with `models` of its own
 ///   that those of `classes.default` do not fit must have its own.
 /// - a model: `position_psd` 0.001, `acceleration_psd` 0.1, `initial_velocity_variance` 0.01,
@@ -79,16 +82,21 @@ class [[nodiscard]] Configuration {
 ///   "orientation"} of the sensor in the robot's base (default: the base itself), `moves_base`
 ///   true, `cost` 0, `dwell` 0 s, `noise` {class: covariance, "default": covariance}, default the
 ///   sensor's own position covariance. It needs a view that sees something, in the sensor's frame.
+/// - `hypotheses`: `max` 100, `min_weight` 1e-6, `gate_probability` 0.9999, `scan_depth` 20,
+///   `min_existence` 1e-4; `min_symbol` 1e-6, or `min_weight` where that is less.
 /// - `maintenance`: `planner` "greedy" (or "lookahead"), `threshold` 1 nat, `omega` 0.75,
 ///   `gain_norm` 5 nat, `cost_scale` the diagonal of the bounds, `speed` 0.5 m/s, `step` 1 s,
-///   `clearance` 0.3 m, `horizon` 4, `timeout` 60 s, `enabled` false, no `walls`
-///   ([[[x, y], [x, y]], ...]); `actions` grab and navigate verify "object", release "none".
+///   `clearance` 0.3 m, `horizon` 4, `timeout` 60 s, `enabled` false;
+///   `actions` grab and navigate verify "object", release "none".
 Configuration read_configuration(const std::filesystem::path& file);
 
 /// The same from memory. Includes are relative to `directory`; if that is empty, they are mistakes
 /// and no file is touched.
 Configuration parse_configuration(std::string_view text,
                                   const std::filesystem::path& directory = {});
+
+/// Most symbols of one attribute that `transitions` may join.
+inline constexpr std::size_t kMostChanging = 20;
 
 /// Most cells that the world may have (Grid): the belief in undetected objects is kept per cell.
 inline constexpr double kMaxCells = 4e6;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace anchord {
 namespace {
@@ -45,6 +46,30 @@ void read_cell(const JsonValue& world, Knowledge& knowledge) {
   }
 }
 
+/// A wall: [[x, y], [x, y]], or {"line": that, "z": [least, most]} in a 3-D world.
+void read_wall(const JsonValue& entry, Knowledge& knowledge) {
+  const bool low = entry.json().is_object();
+  if (low && !entry.object_of({"line", "z"})) return;
+  const auto line = low ? entry.find("line") : std::optional(entry);
+  if (!line) entry.mistake_at(entry.path_of("line"), "is missing: [[x, y], [x, y]], metres");
+  const auto ends = line ? line->elements(2) : std::vector<JsonValue>{};
+  if (ends.size() != 2) {
+    if (line && line->json().is_array())
+      line->mistake("must be two points: [[x, y], [x, y]], metres");
+    return;
+  }
+  const auto from = ends[0].point(2), to = ends[1].point(2);
+  if (!from || !to) return;
+  if (*from == *to) line->mistake("must be two different points");
+  Wall wall{{from->x(), from->y()}, {to->x(), to->y()}};
+  if (const auto z = low ? entry.find("z") : std::nullopt) {
+    if (knowledge.dims == 2) z->mistake("a 2-D world has no heights");
+    std::tie(wall.z_min, wall.z_max) =
+        z->interval(kCoordinate).value_or(std::pair(wall.z_min, wall.z_max));
+  }
+  knowledge.walls.push_back(wall);
+}
+
 /// Sets parents and depths; `parents` holds names, empty for none.
 void connect(const std::vector<std::optional<JsonValue>>& parents, std::vector<Place>& places) {
   const std::vector<std::string> known = names(places);
@@ -76,7 +101,7 @@ void read_world(const JsonValue& root, Knowledge& knowledge) {
     root.mistake_at("world", "is missing; it must have at least \"bounds\"");
     return;
   }
-  if (!world->object_of({"frame", "dimensions", "bounds", "cell", "max_lateness"})) return;
+  if (!world->object_of({"frame", "dimensions", "bounds", "cell", "max_lateness", "walls"})) return;
   world->read("frame", knowledge.map_frame);
   world->read("dimensions", knowledge.dims, 2, 3);
   world->read("max_lateness", knowledge.max_lateness, {0, 3600});
@@ -87,6 +112,8 @@ void read_world(const JsonValue& root, Knowledge& knowledge) {
                       R"(is missing; it must be {"min": [...], "max": [...]}, metres)");
   }
   read_cell(*world, knowledge);
+  if (const auto walls = world->find("walls"))
+    for (const JsonValue& entry : walls->elements(kMaxWalls)) read_wall(entry, knowledge);
 }
 
 void read_places(const JsonValue& root, Knowledge& knowledge) {
@@ -124,8 +151,8 @@ void read_places(const JsonValue& root, Knowledge& knowledge) {
 
 void read_limits(const JsonValue& root, Knowledge& knowledge) {
   const auto section = root.find("hypotheses");
-  if (!section || !section->object_of(
-                      {"max", "min_weight", "gate_probability", "scan_depth", "min_existence"})) {
+  if (!section || !section->object_of({"max", "min_weight", "gate_probability", "scan_depth",
+                                       "min_existence", "min_symbol"})) {
     return;
   }
   constexpr int kMost = 1'000'000;
@@ -135,6 +162,8 @@ void read_limits(const JsonValue& root, Knowledge& knowledge) {
   section->read("gate_probability", limits.gate_probability, kAboveImpossible);
   section->read("scan_depth", limits.scan_depth, 0, kMost);
   section->read("min_existence", limits.min_existence, kBelowCertain);
+  limits.min_symbol = std::min(limits.min_symbol, limits.min_weight);
+  section->read("min_symbol", limits.min_symbol, {0, 0.1});
 }
 
 Knowledge read_knowledge(const nlohmann::json& document, ConfigurationMistakes& mistakes) {

@@ -26,6 +26,9 @@ BehaviourModel default_model(BehaviourModel::Kind kind);
 /// The behaviour models of a class (the value of `models`), weights normalised.
 std::vector<BehaviourModel> read_models(const JsonValue& value, const Knowledge& knowledge);
 
+/// How the attributes of a class change (the value of `changes`).
+std::vector<AttributeChange> read_changes(const JsonValue& value, const Knowledge& knowledge);
+
 /// A distribution over `symbols` (an object): what it leaves goes evenly to those it does not
 /// name. Normalised.
 std::optional<std::vector<double>> read_distribution(const JsonValue& value,

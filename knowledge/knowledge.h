@@ -10,6 +10,7 @@
 #include "core/frame.h"
 #include "geometry/by_axis.h"
 #include "geometry/region.h"
+#include "geometry/walls.h"
 #include "knowledge/maintenance.h"
 
 namespace anchord {
@@ -36,7 +37,7 @@ struct BehaviourModel {
 const char* to_string(BehaviourModel::Kind kind);
 
 struct Transition {
-  int from = 0, to = 0;  ///< indices of the class's models
+  int from = 0, to = 0;  ///< indices of the class's models, or of an attribute's symbols
   double rate = 0;       ///< 1/s
 };
 
@@ -48,10 +49,19 @@ struct Arrival {
   double rate = 0;  ///< expected arrivals per second, over the whole of it
 };
 
+/// How an attribute of an object changes by itself: a banana ripens, a candle burns down.
+struct AttributeChange {
+  int attribute = 0;
+  double redraw = 0;  ///< categorical: 1/s at which the symbol is drawn anew, each as probable
+  std::vector<Transition> transitions;  ///< categorical: between symbols, by index; or redraw
+  double drift = 0;                     ///< scalar: by which the variance grows, unit^2/s
+};
+
 struct ObjectClass {
   std::string name;
   std::vector<BehaviourModel> models;
   std::vector<Transition> transitions;
+  std::vector<AttributeChange> changes;  ///< at most one for each attribute but `class`
   double detection_probability = 0.9;
   double arrival_rate = 0;  ///< beta_c, uniform part, per m^d and s
   std::vector<Arrival> arrivals;
@@ -111,6 +121,7 @@ struct Limits {
   double gate_probability = 0.9999;  ///< 1: no gate
   int scan_depth = 20;               ///< frames; 0: none
   double min_existence = 1e-4;       ///< of a leaf
+  double min_symbol = 1e-6;          ///< belief in a symbol after an update: none is ruled out
 };
 
 struct Knowledge {
@@ -120,6 +131,7 @@ struct Knowledge {
   Eigen::Vector3d bounds_max = Eigen::Vector3d::Zero();
   double cell = 0.25;         ///< m
   double max_lateness = 0.5;  ///< s
+  std::vector<Wall> walls;    ///< neither sight nor way passes
   std::vector<Place> places;
   std::vector<Attribute> attributes;
   int class_attribute = -1;          ///< index of the attribute `class`, or -1

@@ -18,12 +18,6 @@ struct Verification {
   std::vector<std::vector<double>> noise;
 };
 
-/// A wall, seen from above, metres: neither sight nor way passes.
-struct Wall {
-  std::array<double, 2> from{}, to{};
-  bool operator==(const Wall&) const = default;
-};
-
 /// How the maintenance coordinator decides what to look at (thesis section 3.5).
 struct Maintenance {
   enum class Planner {
@@ -50,10 +44,6 @@ struct Maintenance {
   bool enabled = false;    ///< false: only triggers are served
   std::vector<ActionRule> actions{
       {"grab", Verify::kObject}, {"navigate", Verify::kObject}, {"release", Verify::kNothing}};
-  std::vector<Wall> walls;
 };
-
-/// Most walls that a configuration may have.
-inline constexpr std::size_t kMaxWalls = 200;
 
 }  // namespace anchord

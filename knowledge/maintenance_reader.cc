@@ -36,21 +36,6 @@ void read_actions(const JsonValue& value, Maintenance& maintenance) {
   }
 }
 
-void read_walls(const JsonValue& value, Maintenance& maintenance) {
-  maintenance.walls.clear();
-  for (const JsonValue& entry : value.elements(kMaxWalls)) {
-    const auto ends = entry.elements(2);
-    if (ends.size() != 2) {
-      if (entry.json().is_array()) entry.mistake("must be two points: [[x, y], [x, y]], metres");
-      continue;
-    }
-    const auto from = ends[0].point(2), to = ends[1].point(2);
-    if (!from || !to) continue;
-    if (*from == *to) entry.mistake("must be two different points");
-    maintenance.walls.push_back({{from->x(), from->y()}, {to->x(), to->y()}});
-  }
-}
-
 /// The sensor in the robot's base.
 void read_mount(const JsonValue& value, Pose& mount) {
   if (!value.object_of({"position", "orientation"})) return;
@@ -76,8 +61,7 @@ void read_maintenance(const JsonValue& root, Knowledge& knowledge) {
   const auto section = root.find("maintenance");
   if (!section) return;
   if (!section->object_of({"planner", "threshold", "omega", "gain_norm", "cost_scale", "speed",
-                           "step", "clearance", "horizon", "timeout", "enabled", "actions",
-                           "walls"})) {
+                           "step", "clearance", "horizon", "timeout", "enabled", "actions"})) {
     return;
   }
   if (const auto planner = section->find("planner")) {
@@ -96,7 +80,6 @@ void read_maintenance(const JsonValue& root, Knowledge& knowledge) {
   section->read("timeout", maintenance.timeout, kSomeSeconds);
   section->read("enabled", maintenance.enabled);
   if (const auto actions = section->find("actions")) read_actions(*actions, maintenance);
-  if (const auto walls = section->find("walls")) read_walls(*walls, maintenance);
 }
 
 void read_verification(const JsonValue& value, const Knowledge& knowledge,

@@ -13,9 +13,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// m: what stands at a wall may be estimated to lie in it.
-constexpr double kWallDepth = 0.1;
-
 double heading(const Eigen::Matrix3d& rotation) {
   const Eigen::Matrix3d flat = level(rotation);
   return std::atan2(flat(1, 0), flat(0, 0));
@@ -99,7 +96,7 @@ Site::Site(const Knowledge& knowledge)
       settings(knowledge.maintenance),
       bounds_min(knowledge.bounds_min),
       bounds_max(knowledge.bounds_max),
-      ways(settings.walls, settings.clearance, bounds_min.head<2>(), bounds_max.head<2>()) {
+      ways(knowledge.walls, settings.clearance, bounds_min.head<2>(), bounds_max.head<2>()) {
   for (std::size_t i = 0; i < knowledge.sensors.size(); ++i) {
     if (!knowledge.sensors[i].verification) continue;
     eyes.push_back(eye_of(knowledge.sensors[i], static_cast<int>(i), dims));
@@ -116,14 +113,6 @@ Stance Site::stance(const Eye& eye, const BasePose& base) const {
           s};
 }
 
-bool Site::in_sight(const Eigen::Vector2d& from, const Eigen::Vector2d& point) const {
-  if (ways.walls().none()) return true;
-  const Eigen::Vector2d d = point - from;
-  const double length = d.norm();
-  if (length <= kWallDepth) return true;
-  return !ways.walls().between(from, from + (1 - kWallDepth / length) * d);
-}
-
 bool Site::sees(const Eye& eye, const Stance& stance, const Eigen::Vector3d& point_map) const {
   const Eigen::Vector3d d = point_map - stance.sensor;
   if (!(d.head<2>().squaredNorm() <= eye.reach * eye.reach)) return false;
@@ -131,7 +120,7 @@ bool Site::sees(const Eye& eye, const Stance& stance, const Eigen::Vector3d& poi
   const Eigen::Vector3d in_base(c * d.x() + s * d.y(), c * d.y() - s * d.x(),
                                 dims == 3 ? d.z() : 0);
   if (!eye.view.contains(eye.rotation.transpose() * in_base)) return false;
-  return in_sight(stance.sensor.head<2>(), point_map.head<2>());
+  return !ways.walls().hide(stance.sensor, point_map);
 }
 
 }  // namespace anchord

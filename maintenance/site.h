@@ -55,8 +55,6 @@ struct Site {
   WayMap ways;
 
   Stance stance(const Eye& eye, const BasePose& base) const;
-  /// Whether no wall stands between, up to 0.1 m before the point.
-  bool in_sight(const Eigen::Vector2d& from, const Eigen::Vector2d& point) const;
   /// Whether an eye sees a point from there: in its view, and no wall before it.
   bool sees(const Eye& eye, const BasePose& base, const Eigen::Vector3d& point_map) const {
     return sees(eye, stance(eye, base), point_map);

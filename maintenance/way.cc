@@ -11,36 +11,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Walls::Walls(const std::vector<Wall>& walls) {
-  for (const Wall& wall : walls) {
-    x0_.push_back(wall.from[0]);
-    y0_.push_back(wall.from[1]);
-    dx_.push_back(wall.to[0] - wall.from[0]);
-    dy_.push_back(wall.to[1] - wall.from[1]);
-  }
-}
-
-bool Walls::between(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
-  const double ex = b.x() - a.x(), ey = b.y() - a.y();
-  for (std::size_t i = 0; i < x0_.size(); ++i) {
-    // Each line's ends on different sides of the other; touching counts.
-    const double ax = a.x() - x0_[i], ay = a.y() - y0_[i];
-    const double side_a = dx_[i] * ay - dy_[i] * ax;
-    const double side_b = side_a + dx_[i] * ey - dy_[i] * ex;
-    if (side_a * side_b > 0) continue;
-    const double start = ey * ax - ex * ay;
-    const double end = start + ex * dy_[i] - ey * dx_[i];
-    if (start * end > 0) continue;
-    if (side_a != 0 || side_b != 0) return true;
-    // On one line: whether the stretches overlap.
-    const double length2 = dx_[i] * dx_[i] + dy_[i] * dy_[i];
-    const double at = (dx_[i] * ax + dy_[i] * ay) / length2;
-    const double to = at + (dx_[i] * ex + dy_[i] * ey) / length2;
-    if (std::max(at, to) >= 0 && std::min(at, to) <= 1) return true;
-  }
-  return false;
-}
-
 WayMap::WayMap(const std::vector<Wall>& walls, double clearance, const Eigen::Vector2d& bounds_min,
                const Eigen::Vector2d& bounds_max)
     : walls_(walls) {

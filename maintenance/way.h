@@ -4,21 +4,9 @@
 #include <limits>
 #include <vector>
 
-#include "knowledge/maintenance.h"
+#include "geometry/walls.h"
 
 namespace anchord {
-
-/// Walls as line segments in the plane.
-class Walls {
- public:
-  explicit Walls(const std::vector<Wall>& walls);
-  /// Whether the straight line from a to b meets a wall.
-  bool between(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
-  bool none() const { return x0_.empty(); }
-
- private:
-  std::vector<double> x0_, y0_, dx_, dy_;  // start and direction
-};
 
 /// A way on the floor: straight lines from point to point.
 struct Way {

@@ -32,12 +32,12 @@ std::string sensor(const std::string& name, double low, double high, double half
          std::to_string(clutter) + R"(, "verification": {)" + verification + "}}";
 }
 
-std::string bounds(double x, double y, int dims) {
+std::string bounds(double x, double y, int dims, const std::string& walls = "[]") {
   const std::string low = dims == 2 ? "[0, 0]" : "[0, 0, -1]";
   const std::string high =
       "[" + std::to_string(x) + "," + std::to_string(y) + (dims == 2 ? "]" : ",1]");
   return R"("world": {"dimensions": )" + std::to_string(dims) + R"(, "bounds": {"min": )" + low +
-         R"(, "max": )" + high + R"(}, "cell": 0.5})";
+         R"(, "max": )" + high + R"(}, "cell": 0.5, "walls": )" + walls + "}";
 }
 
 }  // namespace
@@ -107,20 +107,21 @@ Scene unreliable_room(Dice& dice) {
 
 Scene house(double most_psd, Dice& dice) {
   Scene scene;
-  scene.knowledge = read(
-      "{" + bounds(18, 12, 2) +
-      R"(, "attributes": {"class": {"kind": "categorical", "symbols": ["thing"]}},
+  // Two rooms above, three below, and doors of 1 m.
+  const std::string walls = R"([
+      [[0, 6], [2.5, 6]], [[3.5, 6], [8.5, 6]], [[9.5, 6], [14.5, 6]], [[15.5, 6], [18, 6]],
+      [[6, 0], [6, 2.5]], [[6, 3.5], [6, 6]], [[12, 0], [12, 2.5]], [[12, 3.5], [12, 6]],
+      [[9, 6], [9, 6.6]], [[9, 7.6], [9, 12]]])";
+  scene.knowledge =
+      read("{" + bounds(18, 12, 2, walls) +
+           R"(, "attributes": {"class": {"kind": "categorical", "symbols": ["thing"]}},
                "classes": {"thing": {"models": [{"kind": "constant_position",
                                                  "position_psd": 0.005}],
                                      "detection_probability": 0.9}},
                "sensors": {)" +
-      sensor("far", 0.5, 5, kPi / 4, 0.09, R"("dwell": 0)", 1e-3, 2) + "," +
-      sensor("near", 0.3, 1.5, kPi / 4, 0.0025, R"("dwell": 2, "cost": 0.1)", 1e-3, 2) +
-      // Two rooms above, three below, and doors of 1 m.
-      R"(}, "maintenance": {"gain_norm": 5, "cost_scale": 18, "step": 1, "speed": 0.5, "walls": [
-               [[0, 6], [2.5, 6]], [[3.5, 6], [8.5, 6]], [[9.5, 6], [14.5, 6]], [[15.5, 6], [18, 6]],
-               [[6, 0], [6, 2.5]], [[6, 3.5], [6, 6]], [[12, 0], [12, 2.5]], [[12, 3.5], [12, 6]],
-               [[9, 6], [9, 6.6]], [[9, 7.6], [9, 12]]]}})");
+           sensor("far", 0.5, 5, kPi / 4, 0.09, R"("dwell": 0)", 1e-3, 2) + "," +
+           sensor("near", 0.3, 1.5, kPi / 4, 0.0025, R"("dwell": 2, "cost": 0.1)", 1e-3, 2) +
+           R"(}, "maintenance": {"gain_norm": 5, "cost_scale": 18, "step": 1, "speed": 0.5}})");
   const double off = 0.4;  // m that things stand off walls
   const double corners[][4] = {
       {0, 0, 6, 6}, {6, 0, 12, 6}, {12, 0, 18, 6}, {0, 6, 9, 12}, {9, 6, 18, 12}};

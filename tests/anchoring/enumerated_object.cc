@@ -52,6 +52,19 @@ void correct(Moments& state, const Measurement& z, int dims) {
   state.covariance = ((state.covariance + state.covariance.transpose()) / 2).eval();
 }
 
+/// What is known of attributes fades, or follows their transitions.
+void change(Object& object, const AttributeChange& change, double dt) {
+  if (const auto scalar = object.scalars.find(change.attribute); scalar != object.scalars.end())
+    scalar->second.variance += change.drift * dt;
+  const auto held = object.symbols.find(change.attribute);
+  if (held == object.symbols.end()) return;
+  const auto n = held->second.size();
+  Eigen::MatrixXd q = Eigen::MatrixXd::Constant(n, n, change.redraw / static_cast<double>(n));
+  for (const Transition& t : change.transitions) q(t.from, t.to) += t.rate;
+  q.diagonal() -= q.rowwise().sum();
+  held->second = (exponential(q * dt).transpose() * held->second).eval();
+}
+
 /// The rate matrix of the behaviour weights: rows leave, columns are entered.
 Eigen::MatrixXd rates(const ObjectClass& object_class) {
   const auto& models = object_class.models;
@@ -150,6 +163,8 @@ const std::vector<BehaviourModel>& Laws::models(const Object& object) const {
 }
 
 double Laws::predict(Object& object, double dt) const {
+  for (const AttributeChange& c : knowledge_.classes[object.object_class].changes)
+    change(object, c, dt);
   const auto& m = models(object);
   for (std::size_t i = 0; i < m.size(); ++i) {
     if (m[i].tracked() && object.models[i].weight > 0)

@@ -23,10 +23,15 @@ constexpr const char* kTwoKinds = R"({"classes": {
     "cup": {"models": [{"kind": "constant_velocity", "acceleration_psd": 0.01,
                         "initial_velocity_variance": 0.02},
                        {"kind": "somewhere", "place": "kitchen", "rate": 0.05},
-                       {"kind": "somewhere", "place": "table", "rate": 0.02}]},
+                       {"kind": "somewhere", "place": "table", "rate": 0.02}],
+            "changes": {"color": {"redraw": 0.05}}},
     "box": {"models": [{"kind": "constant_position", "position_psd": 0.001},
                        {"kind": "somewhere", "place": "kitchen", "rate": 0.03}],
-            "detection_probability": 0.6}}})";
+            "detection_probability": 0.6,
+            "changes": {"size": {"drift": 0.0001},
+                        "color": {"transitions": [{"from": "red", "to": "green", "rate": 0.05},
+                                                  {"from": "green", "to": "blue", "rate": 0.02},
+                                                  {"from": "blue", "to": "red", "rate": 0.3}]}}}}})";
 
 class Leaves : public testing::Test {
  protected:
@@ -66,9 +71,9 @@ class Leaves : public testing::Test {
       give(leaf, f.detections[0], *f.sensor, background());
       return;
     }
-    const Visibility visibility(f.view, background());
+    const Visibility visibility(f.view, f.eye, background());
     const auto& p = f.sensor->detection_probability;
-    give_nothing(leaf, visibility.of(leaf, p), visibility, p, background());
+    give_nothing(leaf, visibility.of(leaf, p, {}, 0), visibility, p, background());
   }
 
   Leaf random_leaf() {

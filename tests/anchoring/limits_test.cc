@@ -20,7 +20,7 @@ World folded(const enumeration::Scene& scene, const Limits& limits) {
   return world;
 }
 
-constexpr Limits kNoLimits{0, 0, 1, 0, 0};
+constexpr Limits kNoLimits{0, 0, 1, 0, 0, 0};
 
 /// What limits lose in one scene.
 struct Loss {

@@ -33,7 +33,7 @@ class Maker {
 
   void make_world() {
     Knowledge& k = known();
-    k.limits = {0, 0, 1, 0, 0};
+    k.limits = {0, 0, 1, 0, 0, 0};
     k.dims = variety_.three_d ? 3 : 2;
     k.cell = dice_.chance(0.5) ? 1 : 0.5;
     k.bounds_min.head<2>() = k.cell * Eigen::Vector2d(dice_.integer(-3, 3), dice_.integer(-3, 3));
@@ -104,6 +104,7 @@ class Maker {
       ObjectClass c;
       c.name = name;
       make_models(c);
+      if (variety_.changes && dice_.chance(0.8)) make_changes(c);
       c.detection_probability = dice_.uniform(0.3, 0.97);
       c.undetected_intensity = dice_.scale(0.01, 1);
       if (variety_.departures) c.departure_rate = dice_.chance(0.2) ? 0 : dice_.scale(0.01, 0.5);
@@ -113,6 +114,24 @@ class Maker {
           c.arrivals.push_back({.place = dice_.integer(0, 1), .rate = dice_.scale(0.01, 1)});
       }
       k.classes.push_back(c);
+    }
+  }
+
+  void make_changes(ObjectClass& c) {
+    const auto& attributes = known().attributes;
+    for (std::size_t a = 0; a < attributes.size(); ++a) {
+      if (static_cast<int>(a) == known().class_attribute) continue;
+      AttributeChange change;
+      change.attribute = static_cast<int>(a);
+      if (attributes[a].kind == Attribute::Kind::kScalar) {
+        change.drift = dice_.scale(1e-4, 1e-2);
+      } else if (dice_.chance(0.4)) {
+        change.redraw = dice_.scale(0.05, 1);
+      } else {
+        for (const auto& [from, to] : {std::pair(2, 0), std::pair(0, 1), std::pair(1, 0)})
+          if (dice_.chance(0.6)) change.transitions.push_back({from, to, dice_.scale(0.05, 1)});
+      }
+      c.changes.push_back(change);
     }
   }
 
@@ -344,8 +363,9 @@ Variety random_variety(std::mt19937_64& random) {
   Variety v;
   for (bool* kind : {&v.three_d, &v.classes, &v.attributes, &v.scores, &v.several_models,
                      &v.undetectable, &v.somewhere, &v.views, &v.correlated, &v.departures,
-                     &v.arrivals, &v.outside, &v.sensors, &v.late, &v.verification})
+                     &v.arrivals, &v.outside, &v.sensors, &v.late, &v.verification, &v.changes})
     *kind = dice.chance(0.4);
+  v.changes = v.changes && v.attributes;
   v.late = v.late && !v.verification;  // a detection cannot name what has not arrived yet
   return v;
 }

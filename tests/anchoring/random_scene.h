@@ -15,6 +15,7 @@ struct Variety {
   bool three_d = false;         ///< a 3-D world
   bool classes = false;         ///< 2 or 3 classes, reported, with a prior or confusion
   bool attributes = false;      ///< a categorical and a scalar one
+  bool changes = false;         ///< with `attributes`: they change, at rates of the class
   bool scores = false;          ///< on some detections
   bool several_models = false;  ///< two tracked models that change into each other
   bool undetectable = false;    ///< a model that is never detected beside the first

@@ -2,6 +2,7 @@
 
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
              "did you mean \"gate_probability\"?"},
         Case{R"("hypotheses": {"scan_depth": "all"})", "hypotheses.scan_depth", "not \"all\""},
         Case{R"("hypotheses": {"min_existence": null})", "hypotheses.min_existence", "not null"},
+        Case{R"("hypotheses": {"min_symbol": 0.2})", "hypotheses.min_symbol", "[0, 0.1]"},
         Case{R"("hypotheses": [])", "hypotheses", "must be an object"},
         Case{R"("include": "home.json")", "include", "from a file only"}));
 
@@ -127,6 +129,62 @@ TEST(ConfigurationMistakes, TransitionsAreBetweenTrackedModels) {
     ASSERT_EQ(configuration.mistakes().size(), 1u) << all_text(configuration);
     EXPECT_EQ(configuration.mistakes()[0].path, "classes.cup.transitions" + path);
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Changes, OneMistake,
+    testing::Values(Case{R"("classes": {"cup": {"changes": []}})", "classes.cup.changes",
+                         "must be an object"},
+                    Case{R"("classes": {"cup": {"changes": {"sise": {}}}})",
+                         "classes.cup.changes.sise", "did you mean \"size\"?"},
+                    Case{R"("classes": {"cup": {"changes": {"class": {"redraw": 1}}}})",
+                         "classes.cup.changes.class", "keeps its class"},
+                    Case{R"("classes": {"cup": {"changes": {"size": {"drift": -1}}}})",
+                         "classes.cup.changes.size.drift", "of at least 0"},
+                    Case{R"("classes": {"cup": {"changes": {"size": {"redraw": 1}}}})",
+                         "classes.cup.changes.size.redraw", "no such key"}));
+
+TEST(ConfigurationMistakes, SymbolsChangeIntoOtherSymbols) {
+  for (const auto& [change, path, message] :
+       std::vector<std::tuple<std::string, std::string, std::string>>{
+           {R"({"drift": 1})", ".drift", "no such key"},
+           {R"({"redraw": -1})", ".redraw", "[0, 1e+06]"},
+           {R"({"redraw": 1, "transitions": []})", "", "either"},
+           {R"({"transitions": {}})", ".transitions", "must be an array"},
+           {R"({"transitions": [{"from": "a", "to": "b"}]})", ".transitions[0].rate", "is missing"},
+           {R"({"transitions": [{"to": "b", "rate": 1}]})", ".transitions[0].from", "is missing"},
+           {R"({"transitions": [{"from": "a", "to": "z", "rate": 1}]})", ".transitions[0].to",
+            "no symbol is called \"z\""},
+           {R"({"transitions": [{"from": "a", "to": "a", "rate": 1}]})", ".transitions[0]",
+            "another symbol"},
+           {R"({"transitions": [{"from": "a", "to": "b", "rate": 1},
+                                {"from": "a", "to": "b", "rate": 2}]})",
+            ".transitions[1]", "there already"}}) {
+    const auto configuration = parse_configuration("{" + kWorld + R"(, "attributes": {
+            "color": {"kind": "categorical", "symbols": ["a", "b"]}},
+            "classes": {"object": {"changes": {"color": )" +
+                                                   change + "}}}}");
+    ASSERT_EQ(configuration.mistakes().size(), 1u) << change << "\n" << all_text(configuration);
+    EXPECT_EQ(configuration.mistakes()[0].path, "classes.object.changes.color" + path);
+    EXPECT_NE(configuration.mistakes()[0].message.find(message), std::string::npos)
+        << configuration.mistakes()[0].message;
+  }
+}
+
+TEST(ConfigurationMistakes, AtMostTwentySymbolsAreJoined) {
+  std::string symbols = "\"s0\"", transitions;
+  for (int s = 1; s <= static_cast<int>(kMostChanging); ++s) {
+    symbols += ", \"s" + std::to_string(s) + "\"";
+    transitions += std::string(s > 1 ? ", " : "") + R"({"from": "s)" + std::to_string(s - 1) +
+                   R"(", "to": "s)" + std::to_string(s) + R"(", "rate": 1})";
+  }
+  const auto configuration = parse_configuration(
+      "{" + kWorld + R"(, "attributes": {
+          "color": {"kind": "categorical", "symbols": [)" +
+      symbols + R"(]}}, "classes": {"object": {"changes": {"color": {"transitions": [)" +
+      transitions + "]}}}}}");
+  ASSERT_EQ(configuration.mistakes().size(), 1u) << all_text(configuration);
+  EXPECT_EQ(configuration.mistakes()[0].path, "classes.object.changes.color.transitions");
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -237,6 +295,23 @@ INSTANTIATE_TEST_SUITE_P(
              "world.dimensions", "from 2 to 3"},
         Case{R"({"world": {"bounds": {"min": [0, 0, 0], "max": [1, 0, 1]}}})", "world.bounds",
              "below max"},
+        Case{R"({"world": {"walls": [[[0, 0]]], "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}})",
+             "world.walls[0]", "two points"},
+        Case{R"({"world": {"walls": [[[0, 0], [0, 0]]],
+                           "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}})",
+             "world.walls[0]", "different"},
+        Case{R"({"world": {"walls": [[[0, 0], [0]]],
+                           "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}})",
+             "world.walls[0][1]", "2 numbers"},
+        Case{R"({"world": {"walls": [{"z": [0, 1]}],
+                           "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}})",
+             "world.walls[0].line", "is missing"},
+        Case{R"({"world": {"walls": [{"line": [[0, 0], [1, 0]], "z": [1, 0]}],
+                           "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}})",
+             "world.walls[0].z", "least below most"},
+        Case{R"({"world": {"walls": [{"line": [[0, 0], [1, 0]], "z": [0, 1]}], "dimensions": 2,
+                           "bounds": {"min": [0, 0], "max": [1, 1]}}})",
+             "world.walls[0].z", "no heights"},
         Case{R"({"world": {"cell": 0, "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}})",
              "world.cell", "above 0"},
         Case{R"({"world": {"cell": 0.01, "bounds": {"min": [0, 0, 0], "max": [99, 99, 1]}}})",

@@ -106,6 +106,15 @@ TEST(Configuration, PlacesKnowTheirParentsDepthsAndHeights) {
   EXPECT_EQ(knowledge.places[1].region.area(), 12);  // 4 x 3
 }
 
+TEST(Configuration, WallsMayHaveHeights) {
+  const Knowledge knowledge = knowledge_of(parse_configuration(
+      R"({"world": {"bounds": {"min": [0, 0, 0], "max": [9, 9, 3]},
+          "walls": [[[1, 2], [3, 4]], {"line": [[5, 6], [7, 8]], "z": [0, 1.5]}]}})"));
+  ASSERT_EQ(knowledge.walls.size(), 2u);
+  EXPECT_EQ(knowledge.walls[0], (Wall{{1, 2}, {3, 4}}));
+  EXPECT_EQ(knowledge.walls[1], (Wall{{5, 6}, {7, 8}, 0, 1.5}));
+}
+
 TEST(Configuration, PredicatesAreInOrderAndSetTheReferenceDensity) {
   const Knowledge knowledge = with("");
   const Attribute& size =
@@ -156,6 +165,36 @@ TEST(Configuration, ClassesTakeWhatIsMissingFromDefault) {
   EXPECT_TRUE(box.transitions.empty());
   EXPECT_TRUE(box.arrivals.empty());
   EXPECT_EQ(knowledge.classes[2].departure_rate, 0.25);  // not named at all
+}
+
+TEST(Configuration, AttributesChangeAtTheRatesOfAClass) {
+  const Knowledge knowledge = knowledge_of(parse_configuration(R"({
+    "world": {"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}},
+    "attributes": {"class": {"kind": "categorical", "symbols": ["banana", "candle"]},
+                   "color": {"kind": "categorical", "symbols": ["green", "yellow", "brown"]},
+                   "size": {"kind": "scalar"}},
+    "classes": {"default": {"changes": {"color": {"redraw": 0.5}, "size": {"drift": 0.25}}},
+                "banana": {"changes": {"color": {"transitions": [
+                    {"from": "green", "to": "yellow", "rate": 0.125}]}}}}})"));
+  const ObjectClass &banana = knowledge.classes[0], &candle = knowledge.classes[1];
+  ASSERT_EQ(banana.changes.size(), 1u);
+  EXPECT_EQ(banana.changes[0].attribute, knowledge.find_attribute("color"));
+  EXPECT_EQ(banana.changes[0].redraw, 0);
+  ASSERT_EQ(banana.changes[0].transitions.size(), 1u);
+  EXPECT_EQ(banana.changes[0].transitions[0].from, 0);
+  EXPECT_EQ(banana.changes[0].transitions[0].to, 1);
+  EXPECT_EQ(banana.changes[0].transitions[0].rate, 0.125);
+  ASSERT_EQ(candle.changes.size(), 2u);
+  EXPECT_EQ(candle.changes[0].redraw, 0.5);
+  EXPECT_EQ(candle.changes[1].attribute, knowledge.find_attribute("size"));
+  EXPECT_EQ(candle.changes[1].drift, 0.25);
+}
+
+TEST(Configuration, NoSymbolIsRuledOutUnlessTheEngineIsExact) {
+  EXPECT_EQ(with("").limits.min_symbol, 1e-6);
+  EXPECT_EQ(with(R"("hypotheses": {"min_weight": 1e-3})").limits.min_symbol, 1e-6);
+  EXPECT_EQ(with(R"("hypotheses": {"min_weight": 0})").limits.min_symbol, 0);
+  EXPECT_EQ(with(R"("hypotheses": {"min_weight": 0, "min_symbol": 0.01})").limits.min_symbol, 0.01);
 }
 
 TEST(Configuration, DetectionProbabilityFallsBackFromSensorToClass) {

@@ -45,14 +45,13 @@ TEST(MaintenanceReader, WithoutTheSectionTheDocumentedDefaultsHold) {
   ASSERT_EQ(m.actions.size(), 3u);  // thesis table 3.1
   EXPECT_EQ(m.actions[2].action, "release");
   EXPECT_EQ(m.actions[2].verify, Maintenance::Verify::kNothing);
-  EXPECT_TRUE(m.walls.empty());
 }
 
 TEST(MaintenanceReader, TakesEveryKey) {
   const Configuration configuration = with(R"("maintenance": {"planner": "lookahead",
     "threshold": 8, "omega": 2, "gain_norm": 4, "cost_scale": 3, "speed": 1, "step": 0.1,
     "clearance": 0.4, "horizon": 3, "timeout": 20, "enabled": true,
-    "actions": [{"action": "water", "verify": "object"}], "walls": [[[1, 2], [3, 4]]]})");
+    "actions": [{"action": "water", "verify": "object"}]})");
   ASSERT_TRUE(configuration.ok()) << configuration.mistakes()[0].text();
   const Maintenance& m = configuration.knowledge().maintenance;
   EXPECT_EQ(m.planner, Maintenance::Planner::kLookahead);
@@ -68,8 +67,6 @@ TEST(MaintenanceReader, TakesEveryKey) {
   EXPECT_TRUE(m.enabled);
   ASSERT_EQ(m.actions.size(), 1u);
   EXPECT_EQ(m.actions[0].action, "water");
-  ASSERT_EQ(m.walls.size(), 1u);
-  EXPECT_EQ(m.walls[0], (Wall{{1, 2}, {3, 4}}));
 }
 
 TEST(MaintenanceReader, ASensorForTasksTakesItsOwnNoiseWhereNoneIsSaid) {
@@ -109,11 +106,6 @@ TEST(MaintenanceReader, MistakesAreNamedWithTheirPaths) {
   expect_mistake(R"("maintenance": {"actions": [{"action": "a", "verify": "none"},
                                                 {"action": "a", "verify": "none"}]})",
                  "maintenance.actions[1].action", "already");
-  expect_mistake(R"("maintenance": {"walls": [[[0, 0]]]})", "maintenance.walls[0]", "two points");
-  expect_mistake(R"("maintenance": {"walls": [[[0, 0], [0, 0]]]})", "maintenance.walls[0]",
-                 "different");
-  expect_mistake(R"("maintenance": {"walls": [[[0, 0], [0]]]})", "maintenance.walls[0][1]",
-                 "2 numbers");
 }
 
 TEST(MaintenanceReader, ASensorForTasksMustSeeAndMeasure) {

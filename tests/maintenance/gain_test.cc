@@ -118,7 +118,7 @@ TEST(Gain, TwoSensorsFuse) {
 
 TEST(Gain, WhatIsOutOfViewOrBehindAWallGainsNothing) {
   RoomOptions options;
-  options.maintenance = R"("walls": [[[4.5, 0], [4.5, 10]]])";
+  options.walls = "[[[4.5, 0], [4.5, 10]]]";
   const Knowledge knowledge = room(options);
   const Site site(knowledge), open{room()};
   const std::vector<Subject> subjects{cup("c", 5, 5, 0.5, knowledge)};

@@ -11,8 +11,9 @@ namespace {
 
 class EachPlanner : public testing::TestWithParam<const char*> {
  protected:
-  Knowledge knowledge(const std::string& more) const {
+  Knowledge knowledge(const std::string& more, const std::string& walls = "[]") const {
     RoomOptions options;
+    options.walls = walls;
     options.maintenance = std::string(R"("planner": ")") + GetParam() + "\", " + more;
     return room(options);
   }
@@ -70,7 +71,7 @@ TEST_P(EachPlanner, AMirroredSceneGivesTheMirroredChoice) {
 }
 
 TEST_P(EachPlanner, GoesRoundWallsAndTellsHowFar) {
-  const Knowledge k = knowledge(R"("threshold": 0.1, "walls": [[[5, 0], [5, 8]]])");
+  const Knowledge k = knowledge(R"("threshold": 0.1)", "[[[5, 0], [5, 8]]]");
   const auto action = choose({cup("a", 7, 2, 2, k)}, robot_at(3, 2), Site(k));
   ASSERT_TRUE(action);
   EXPECT_GT(action->distance, 12);  // up to y = 8 and down again

@@ -11,7 +11,8 @@ namespace anchord {
 
 Knowledge room(const RoomOptions& options) {
   const std::string text =
-      R"({"world": {"dimensions": 2, "bounds": {"min": [0, 0], "max": [10, 10]}},
+      R"({"world": {"dimensions": 2, "bounds": {"min": [0, 0], "max": [10, 10]}, "walls": )" +
+      options.walls + R"(},
   "attributes": {"class": {"kind": "categorical", "symbols": ["cup"]}},
   "classes": {"cup": {"models": )" +
       options.models + R"(, "detection_probability": )" + std::to_string(options.p_d) +

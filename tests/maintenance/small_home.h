@@ -15,6 +15,7 @@ namespace anchord {
 struct RoomOptions {
   double p_d = 0.999;                          ///< below 1: a belief is never empty
   std::string maintenance;                     ///< members of "maintenance", as JSON text
+  std::string walls = "[]";                    ///< of the world, as JSON text
   std::string more_sensors;                    ///< further members of "sensors"
   std::string verification = R"("dwell": 0)";  ///< members of the eye's
   std::string models = R"([{"kind": "constant_position", "position_psd": 0.001}])";

@@ -70,8 +70,8 @@ TEST(Subject, IsAsUncertainAsItsObject) {
 TEST(Subject, VersionsThatAreAlikeBecomeOneTrack) {
   World world(room());
   // Two cups close together, reported twice: which report is whose is open.
-  ASSERT_TRUE(world.apply(cups_at({{5, 5}, {5.15, 5}}, kStart)).ok());
-  ASSERT_TRUE(world.apply(cups_at({{5.05, 5}, {5.1, 5}}, kStart + 1'000'000)).ok());
+  ASSERT_TRUE(world.apply(cups_at({{5, 5}, {5.1, 5}}, kStart)).ok());
+  ASSERT_TRUE(world.apply(cups_at({{5.04, 5}, {5.06, 5}}, kStart + 1'000'000)).ok());
   const auto objects = read_objects(*world.belief(), kStart + 1'000'000, 0.5, *world.background());
   ASSERT_EQ(objects.size(), 2u);
   for (const ObjectBelief& object : objects) {

@@ -37,7 +37,7 @@ TEST(Viewpoint, IsWhereTheRobotIsIfItSeesTheObjectFromThere) {
 
 TEST(Viewpoint, GoesRoundWhereAWallIsBetween) {
   RoomOptions options;
-  options.maintenance = R"("walls": [[[7.5, 4], [7.5, 6]]])";
+  options.walls = "[[[7.5, 4], [7.5, 6]]]";
   const Site site{room(options)};
   const auto base = viewpoint_of({8, 5, 0}, site.eyes[0], {{1, 5}, 0, 0}, site);
   ASSERT_TRUE(base);

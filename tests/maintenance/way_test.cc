@@ -14,16 +14,6 @@ const std::vector<Wall> kCross{{{5, 0}, {5, 4}}};  // a wall from the lower edge
 
 WayMap map_of(const std::vector<Wall>& walls) { return {walls, 0.3, {0, 0}, {10, 10}}; }
 
-TEST(Walls, BlockWhatCrossesOrTouchesThem) {
-  const Walls walls(kCross);
-  EXPECT_TRUE(walls.between({4, 2}, {6, 2}));
-  EXPECT_TRUE(walls.between({4, 2}, {5, 2}));
-  EXPECT_TRUE(walls.between({5, 3}, {5, 9}));
-  EXPECT_FALSE(walls.between({5, 5}, {5, 9}));
-  EXPECT_FALSE(walls.between({4, 5}, {6, 5}));
-  EXPECT_FALSE(walls.between({4, 1}, {4, 3}));
-}
-
 TEST(WayMap, WithoutAWallInBetweenTheWayIsStraight) {
   const WayMap ways = map_of(kCross);
   const Way way = ways.way(ways.start({1, 9}), {9, 9});
