@@ -136,8 +136,8 @@ std::shared_ptr<const Leaf> birth(int z, const MapFrame& frame, const Origin& or
                                   std::uint64_t frame_number, const Background& background) {
   const Limits& limits = background.knowledge.limits;
   if (origin.existence <= 0 || origin.existence < limits.min_existence) return nullptr;
-  Leaf leaf =
-      first_leaf(frame.detections[z], origin.terms, origin.existence, frame.utime, background);
+  Leaf leaf = first_leaf(frame.detections[z], origin.terms, origin.existence, frame.utime,
+                         background, origin.met);
   if (limits.scan_depth > 0) leaf.recent.push_back(frame_number << 16 | z);
   return std::make_shared<const Leaf>(std::move(leaf));
 }

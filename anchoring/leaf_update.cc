@@ -122,7 +122,7 @@ void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& vis
 }
 
 Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double existence,
-                Utime utime, const Background& background) {
+                Utime utime, const Background& background, const std::optional<Kinematic>& met) {
   Leaf leaf;
   leaf.existence = existence;
   leaf.classes.assign(terms.begin(), terms.end());
@@ -135,9 +135,10 @@ Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double 
       continue;
     }
     const bool moving = model.kind == BehaviourModel::Kind::kConstantVelocity;
-    leaf.models.push_back({model.initial_weight,
-                           kinematic_at(z.position, moving ? model.initial_velocity_variance : 0.0,
-                                        background.dims)});
+    const Kinematic still =
+        kinematic_at(z.position, moving ? model.initial_velocity_variance : 0.0, background.dims);
+    leaf.models.push_back(
+        {model.initial_weight, met ? as_model(*met, model, background.dims) : still});
   }
   learn_attributes(leaf, z);
   leaf.yaw = z.yaw;
