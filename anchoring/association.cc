@@ -5,6 +5,7 @@
 
 #include "anchoring/cluster.h"
 #include "anchoring/reduction.h"
+#include "anchoring/twins.h"
 #include "core/log_probability.h"
 #include "mht/ranked_associations.h"
 
@@ -216,6 +217,7 @@ std::vector<std::shared_ptr<const Cluster>> associate(
   merge_equal(joint.hypotheses);
   if (limits.scan_depth > 0) {
     merge_alike(joint, background);
+    if (limits.max_hypotheses > 0) join_twins(joint, background);
     // Versions that were merged in several hypotheses alike are then one.
     if (merge_nearest(joint, limits.max_hypotheses, background)) merge_alike(joint, background);
   }
