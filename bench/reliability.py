@@ -119,13 +119,20 @@ def tenths(judged: list[tuple[float, bool]]) -> list[tuple[int, float, float]]:
     return out
 
 
+def panel(name: str, judged: list[tuple[float, bool]]) -> Panel:
+    out = Panel(name, "believed", "true")
+    out.curve("as believed", [(0, 0, 0), (1, 1, 0)])
+    observed = [(p, share, math.sqrt(share * (1 - share) / n)) for n, p, share in tenths(judged) if n]
+    out.curve("observed, and one standard error", observed)
+    return out
+
+
 def main() -> None:
     by_set: dict[str, list[tuple[float, bool]]] = {}
     for line in sys.stdin:
         name, judged = judge_sequence(line)
         by_set.setdefault(name, []).extend(judged)
     everything = [j for judged in by_set.values() for j in judged]
-    panels = []
     print("\n### Reliability\n\nshare that is true / mean p (how many)\n")
     print("| set | " + " | ".join(f"{k / 10:.1f}-" for k in range(TENTHS)) + " | worst |")
     print("| --- |" + " ---: |" * (TENTHS + 1))
@@ -134,16 +141,12 @@ def main() -> None:
         cells = [f"{share:.2f} / {mean:.2f} ({n})" if n else "" for n, mean, share in table]
         worst = max((abs(share - mean) for n, mean, share in table if n >= FEW), default=0.0)
         print(f"| {name} | " + " | ".join(cells) + f" | {worst:.3f} |")
-        panel = Panel(name, "believed", "true")
-        panel.curve("as believed", [(0, 0, 0), (1, 1, 0)])
-        points = [
-            (mean, share, math.sqrt(share * (1 - share) / n)) for n, mean, share in table if n
-        ]
-        panel.curve("observed", points)
-        panels.append(panel)
     print(f"\nworst: the largest difference in a tenth with at least {FEW} things.")
+    families: dict[str, list[tuple[float, bool]]] = {"together": everything}
+    for name, judged in by_set.items():  # variants of one data set share a panel
+        families.setdefault(name.split("_")[0], []).extend(judged)
     with open(sys.argv[1], "w") as f:
-        f.write(figure(panels[-1:] + panels[:-1]))
+        f.write(figure([panel(name, judged) for name, judged in families.items()]))
 
 
 main()
