@@ -122,8 +122,9 @@ def tenths(judged: list[tuple[float, bool]]) -> list[tuple[int, float, float]]:
 def panel(name: str, judged: list[tuple[float, bool]]) -> Panel:
     out = Panel(name, "believed", "true")
     out.curve("as believed", [(0, 0, 0), (1, 1, 0)])
-    observed = [(p, share, math.sqrt(share * (1 - share) / n)) for n, p, share in tenths(judged) if n]
-    out.curve("observed, and one standard error", observed)
+    table = [(n, p, share) for n, p, share in tenths(judged) if n]
+    points = [(p, share, math.sqrt(share * (1 - share) / n)) for n, p, share in table]
+    out.curve("observed, and one standard error", points)
     return out
 
 
