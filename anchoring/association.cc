@@ -5,6 +5,7 @@
 
 #include "anchoring/cluster.h"
 #include "anchoring/reduction.h"
+#include "anchoring/twins.h"
 #include "core/log_probability.h"
 #include "mht/ranked_associations.h"
 
@@ -149,8 +150,8 @@ std::shared_ptr<const Leaf> birth(int z, const MapFrame& frame, const Origin& or
                                   std::uint64_t frame_number, const Background& background) {
   const Limits& limits = background.knowledge.limits;
   if (origin.existence <= 0 || origin.existence < limits.min_existence) return nullptr;
-  Leaf leaf =
-      first_leaf(frame.detections[z], origin.terms, origin.existence, frame.utime, background);
+  Leaf leaf = first_leaf(frame.detections[z], origin.terms, origin.existence, frame.utime,
+                         background, origin.met);
   if (limits.scan_depth > 0) leaf.recent.push_back(frame_number << 16 | z);
   return std::make_shared<const Leaf>(std::move(leaf));
 }
@@ -234,6 +235,7 @@ std::vector<std::shared_ptr<const Cluster>> associate(
   merge_equal(joint.hypotheses);
   if (limits.scan_depth > 0) {
     merge_alike(joint, background);
+    if (limits.max_hypotheses > 0) join_twins(joint, background);
     // Versions that were merged in several hypotheses alike are then one.
     if (merge_nearest(joint, limits.max_hypotheses, background)) merge_alike(joint, background);
   }

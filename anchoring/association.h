@@ -37,10 +37,11 @@ struct PredictedCluster {
 
 /// What a detection is worth without any anchor.
 struct Origin {
-  std::vector<double> terms;  ///< per class p_D,c lambda_c(z) l(z|c)
-  double expected = 0;        ///< e(z), their sum
-  double log_weight = 0;      ///< ln(kappa(z) + e(z)), doubt included
-  double existence = 0;       ///< e / (kappa + e)
+  std::vector<double> terms;     ///< per class p_D,c lambda_c(z) l(z|c)
+  double expected = 0;           ///< e(z), their sum
+  double log_weight = 0;         ///< ln(kappa(z) + e(z)), doubt included
+  double existence = 0;          ///< e / (kappa + e)
+  std::optional<Kinematic> met;  ///< what it would be; none: an object at rest at z
 };
 
 /// Folds one frame into a belief whose time is not after the frame's: prediction, association,

@@ -70,10 +70,13 @@ double cell_volume(const Grid& grid, int dims) {
 
 /// The arrivals that are concentrated somewhere, spread over the cells; empty if there are none.
 std::vector<double> concentrated(const ObjectClass& c, const Background& b) {
-  if (c.arrivals.empty()) return {};
+  if (std::all_of(c.arrivals.begin(), c.arrivals.end(),
+                  [](const Arrival& a) { return a.motion.has_value(); }))
+    return {};
   std::vector<double> rate(b.grid.size(), c.arrival_rate);
   const double volume = cell_volume(b.grid, b.dims);
   for (const Arrival& a : c.arrivals) {
+    if (a.motion) continue;  // theirs is an intensity that moves
     const auto* place = a.place >= 0 ? b.footprint(a.place).get() : nullptr;
     for (int cell = 0; cell < b.grid.size(); ++cell) {
       const Eigen::Vector3d low = b.grid.corner_min(cell), high = b.grid.corner_max(cell);
@@ -87,6 +90,32 @@ std::vector<double> concentrated(const ObjectClass& c, const Background& b) {
     }
   }
   return rate;
+}
+
+/// The arrivals that move before they are seen.
+MovingArrivals moving(const ObjectClass& c, int first_detectable, int dims) {
+  const BehaviourModel& model = c.models[first_detectable];
+  MovingArrivals out;
+  out.constant_velocity = model.kind == BehaviourModel::Kind::kConstantVelocity;
+  out.psd = model.psd;
+  out.departure_rate = c.departure_rate;
+  out.dims = dims;
+  for (const Arrival& a : c.arrivals) {
+    if (!a.motion) continue;
+    MovingArrivals::Source source;
+    source.density =
+        kinematic_at({a.mean, a.covariance},
+                     out.constant_velocity ? model.initial_velocity_variance : ByAxis(), dims);
+    // A class that took arrivals from the default may have a model without velocity.
+    if (out.constant_velocity) {
+      source.density.velocity = a.motion->velocity;
+      source.density.vv = a.motion->velocity_covariance.value_or(source.density.vv);
+    }
+    source.rate = a.rate;
+    source.at_start = a.motion->at_start;
+    out.sources.push_back(source);
+  }
+  return out;
 }
 
 }  // namespace
@@ -106,7 +135,12 @@ Background::Background(Knowledge k)
     has_extents = has_extents || !c.extent.isZero(0);
     arrivals.push_back(std::make_shared<ArrivalModel>(ArrivalModel{
         c.undetected_intensity, c.departure_rate, c.arrival_rate, concentrated(c, *this)}));
+    moving_arrivals.push_back(
+        std::make_shared<MovingArrivals>(moving(c, dynamics.back().first_detectable, dims)));
   }
+  if (std::all_of(moving_arrivals.begin(), moving_arrivals.end(),
+                  [](const auto& m) { return m->sources.empty(); }))
+    moving_arrivals.clear();
   const double gate = knowledge.limits.gate_probability;
   gate_distance2 = gate < 1 ? boost::math::quantile(boost::math::chi_squared(dims), gate)
                             : std::numeric_limits<double>::infinity();

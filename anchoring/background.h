@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knowledge/knowledge.h"
+#include "models/moving_intensity.h"
 #include "models/somewhere.h"
 #include "models/transition.h"
 #include "models/undetected_intensity.h"
@@ -39,6 +40,8 @@ struct Background {
   Walls walls;
   bool has_extents = false;  ///< of any class: objects hide each other
   std::vector<std::shared_ptr<const ArrivalModel>> arrivals;  ///< per class
+  /// Per class; empty where no class has any.
+  std::vector<std::shared_ptr<const MovingArrivals>> moving_arrivals;
   double gate_distance2;    ///< squared Mahalanobis distance; infinite without gate
   double log_least_weight;  ///< ln of Limits::min_weight; minus infinity if 0
 

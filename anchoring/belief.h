@@ -9,6 +9,7 @@
 
 #include "anchoring/leaf.h"
 #include "mht/hypothesis_set.h"
+#include "models/moving_intensity.h"
 #include "models/undetected_intensity.h"
 
 namespace anchord {
@@ -70,6 +71,8 @@ struct Belief {
   std::uint64_t frames = 0;
   std::vector<std::shared_ptr<const Cluster>> clusters;
   std::vector<UndetectedIntensity> undetected;  ///< per class
+  /// Of what arrives on the move, beside it: per class; empty where nothing does.
+  std::vector<MovingIntensity> moving;
   std::uint64_t births = 0;
   std::vector<std::uint64_t> names;  ///< given so far, per class
   std::vector<SetAside> set_aside;   ///< by the newest events that can be undone

@@ -38,10 +38,7 @@ std::vector<int> merged(AnchorTree& tree, const std::vector<double>& probability
   for (int l : order) {
     const Leaf& leaf = *tree.leaves[l];
     const auto into = std::find_if(kept.begin(), kept.end(), [&](const Kept& k) {
-      const Leaf& head = *tree.leaves[k.head];
-      const double rare = std::sqrt(kNegligibleMerge / probability[l]);
-      const double most = rare < kAlike && head.recent != leaf.recent ? rare : kAlike;
-      return difference(head, leaf, background, most) < most;
+      return alike(*tree.leaves[k.head], leaf, probability[l], background);
     });
     number[l] = static_cast<int>(into - kept.begin());
     if (into == kept.end()) {
@@ -58,6 +55,12 @@ std::vector<int> merged(AnchorTree& tree, const std::vector<double>& probability
 }
 
 }  // namespace
+
+bool alike(const Leaf& a, const Leaf& b, double rarer, const Background& background) {
+  const double rare = std::sqrt(kNegligibleMerge / rarer);
+  const double most = rare < kAlike && a.recent != b.recent ? rare : kAlike;
+  return difference(a, b, background, most) < most;
+}
 
 double Cluster::existence(int anchor) const {
   double p = 0;

@@ -7,6 +7,10 @@
 
 namespace anchord {
 
+/// Whether making one of two versions of an object, the rarer of that probability, loses nothing
+/// that matters: see merge_alike().
+bool alike(const Leaf& a, const Leaf& b, double rarer, const Background& background);
+
 /// Makes one of versions of an anchor that are alike (their difference() is small) where that loses
 /// nothing that matters: where the rarer one is rare enough, or where both were given the same
 /// detections in the last `scan_depth` frames, so that they differ only in the distant past.

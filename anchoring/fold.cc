@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "anchoring/association.h"
@@ -27,6 +28,24 @@ double log_gain(const PredictedLeaf& predicted, const Anchor& anchor, const MapD
   return named || gain >= background.log_least_weight ? gain : kLogZero;
 }
 
+/// What a detection would be, of the class that is likeliest by an origin's terms, where `moving`
+/// has a part in that term; `at_rest` are the terms without it.
+std::optional<Kinematic> met_by(const MapDetection& z, const std::vector<double>& terms,
+                                const std::vector<double>& at_rest, const Sensor& sensor,
+                                const std::vector<MovingIntensity>& moving,
+                                const Background& background) {
+  const auto c = std::max_element(terms.begin(), terms.end()) - terms.begin();
+  if (terms[c] <= at_rest[c]) return std::nullopt;
+  const BehaviourModel& model =
+      background.object_class(static_cast<int>(c)).models[background.dynamics[c].first_detectable];
+  const Kinematic still =
+      kinematic_at(z.position, model.initial_velocity_variance, background.dims);
+  Kinematic met = moving[c].found_at(
+      z.position, at_rest[c] / (sensor.detection_probability[c] * z.class_ratio[c]), still);
+  keep_above(met, sensor.pose_floor, background.dims);
+  return met;
+}
+
 }  // namespace
 
 std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
@@ -34,16 +53,23 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
   std::vector<Origin> out;
   out.reserve(frame.detections.size());
   const double time = belief.seconds(frame.utime);
+  std::vector<MovingIntensity> moving = belief.moving;
+  for (MovingIntensity& m : moving) m.advance(time);
   for (const MapDetection& z : frame.detections) {
     Origin origin;
     const int cell = background.cell_of(z.position.mean);
-    for (int c = 0; c < background.classes(); ++c) {
+    for (int c = 0; c < background.classes(); ++c)
       origin.terms.push_back(frame.sensor->detection_probability[c] *
                              belief.undetected[c].at(cell, time) * z.class_ratio[c]);
-      origin.expected += origin.terms.back();
-    }
+    const std::vector<double> at_rest = moving.empty() ? std::vector<double>{} : origin.terms;
+    for (std::size_t c = 0; c < moving.size(); ++c)
+      origin.terms[c] += frame.sensor->detection_probability[c] * moving[c].intensity(z.position) *
+                         z.class_ratio[c];
+    for (double term : origin.terms) origin.expected += term;
     const double clutter = std::exp(z.log_clutter);
     origin.existence = origin.expected / (clutter + origin.expected);
+    if (!moving.empty() && origin.existence >= background.knowledge.limits.min_existence)
+      origin.met = met_by(z, origin.terms, at_rest, *frame.sensor, moving, background);
     origin.log_weight = std::log(clutter + origin.expected);
     if (!z.object.empty()) origin.log_weight += std::log(frame.sensor->identity_doubt);
     out.push_back(std::move(origin));
@@ -119,6 +145,11 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   const double time = belief.seconds(frame.utime);
   for (int c = 0; c < background.classes(); ++c)
     belief.undetected[c].miss(visibility.look(), frame.sensor->detection_probability[c], time);
+  if (frame.view.sees_nothing()) return;
+  for (std::size_t c = 0; c < belief.moving.size(); ++c) {
+    belief.moving[c].advance(time);
+    belief.moving[c].miss(frame.view, frame.sensor->detection_probability[c]);
+  }
 }
 
 }  // namespace anchord

@@ -1,5 +1,6 @@
 #include "anchoring/leading.h"
 
+#include <cmath>
 #include <vector>
 
 #include "anchoring/reading.h"
@@ -11,9 +12,7 @@ namespace {
 /// How many times what the world with the names kept weighs another must weigh to be shown.
 /// Chosen on simulated crowds: from 3 to 30 it hardly matters.
 constexpr double kClearly = 2.302585092994046;  // ln 10
-/// The same where an object goes by another name, nobody else by its own: the name that is kept has
-/// less than half of the probability then, and many look only at what has more.
-constexpr double kClearlyTwin = 1.0986122886681098;  // ln 3
+const double kClearlyTwin = std::log(kClearlyOther);
 /// Positions closer than this, in standard deviations of their difference, are the same spot.
 constexpr double kSameSpot = 1;
 

@@ -4,6 +4,11 @@
 
 namespace anchord {
 
+/// An object that goes by another name in other worlds, and nobody else by its own, keeps the one
+/// that is shown until the other is so many times as probable: the name that is kept has less than
+/// half of the probability then, and many look only at what has more.
+inline constexpr double kClearlyOther = 3;
+
 /// Chooses the hypothesis of a cluster that the best world shows: the most probable one, unless
 /// that is the world shown so far but for its names. Where two like objects have met and parted,
 /// worlds in which they have kept and exchanged their names stay about equally probable for long;

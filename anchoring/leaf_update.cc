@@ -134,7 +134,7 @@ void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& vis
 }
 
 Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double existence,
-                Utime utime, const Background& background) {
+                Utime utime, const Background& background, const std::optional<Kinematic>& met) {
   Leaf leaf;
   leaf.existence = existence;
   leaf.classes.assign(terms.begin(), terms.end());
@@ -147,10 +147,10 @@ Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double 
       continue;
     }
     const bool moving = model.kind == BehaviourModel::Kind::kConstantVelocity;
+    const Kinematic still = kinematic_at(
+        z.position, moving ? model.initial_velocity_variance : ByAxis(), background.dims);
     leaf.models.push_back(
-        {model.initial_weight,
-         kinematic_at(z.position, moving ? model.initial_velocity_variance : ByAxis(),
-                      background.dims)});
+        {model.initial_weight, met ? as_model(*met, model, background.dims) : still});
   }
   learn_attributes(leaf, z, background);
   leaf.yaw = z.yaw;

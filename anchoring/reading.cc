@@ -278,6 +278,10 @@ double undetected(const Belief& belief, Utime at, const Description& description
       if (overlap[i] > 0)
         number += belief.undetected[c].at(world.cells[i], time) * overlap[i] * world.share[i];
     sum += share * number * world.volume;
+    if (belief.moving.empty()) continue;
+    MovingIntensity moving = belief.moving[c];
+    moving.advance(time);
+    sum += share * moving.expected(background.footprint(place)->region);
   }
   return sum;
 }

@@ -11,6 +11,7 @@ World::World(Knowledge knowledge)
   Belief empty;
   for (const auto& arrivals : background_->arrivals)
     empty.undetected.emplace_back(background_->tiling, arrivals);
+  for (const auto& arrivals : background_->moving_arrivals) empty.moving.emplace_back(arrivals);
   empty.names.assign(background_->classes(), 0);
   belief_ = std::make_shared<const Belief>(std::move(empty));
 }

@@ -10,6 +10,8 @@
 set -euo pipefail
 
 root=$(dirname "${BASH_SOURCE[0]}")/..
+# shellcheck source=bench/replay.sh
+source "$root/bench/replay.sh"
 config=$root/config/plaza.json
 input=$root/data/plaza.lcm
 while getopts 'c:i:' option; do
@@ -31,13 +33,7 @@ if ((!$#)); then arguments=(--radius 1 --dims 2 --seen-within 0.5); fi
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-replay=("${ANCHOR_REPLAY:-$root/build/anchor-replay}" --config "$config" --no-timing
-  --output "$folder/world.jsonl" --stats "$folder/stats.json")
-if [[ $input == *.gz ]]; then
-  gzip -dc "$input" | "${replay[@]}" --input -
-else
-  "${replay[@]}" --input "$input"
-fi
-"${PYTHON:-python3}" "$score" --truth "$truth" --world "$folder/world.jsonl" --index "$index" \
+replay "$config" "$input" "$folder/all"
+"${PYTHON:-python3}" "$score" --truth "$truth" --world "$folder/all.world.jsonl" --index "$index" \
   "${arguments[@]}"
-cat "$folder/stats.json"
+cat "$folder/all.stats.json"

@@ -61,9 +61,52 @@ std::vector<Transition> read_transitions(const JsonValue& value,
   return transitions;
 }
 
-Arrival read_arrival(const JsonValue& value, const Knowledge& knowledge) {
+/// A member that is a covariance matrix, or nothing.
+std::optional<Eigen::Matrix3d> read_covariance(const JsonValue& value, const char* key, int dims) {
+  const auto member = value.find(key);
+  const auto entries = member ? member->covariance(dims) : std::nullopt;
+  if (!entries) return std::nullopt;
+  Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+  out.topLeftCorner(dims, dims) = Eigen::Map<const Eigen::MatrixXd>(entries->data(), dims, dims);
+  return out;
+}
+
+/// How what arrives goes on before it is seen, if it does.
+std::optional<Arrival::Motion> read_motion(const JsonValue& value,
+                                           const std::vector<BehaviourModel>& models, int dims) {
+  bool moves = false;
+  value.read("moves", moves);
+  for (const char* key : {"velocity", "velocity_covariance", "at_start"})
+    if (!moves && value.find(key))
+      value.mistake_at(value.path_of(key), "is for arrivals with \"moves\": true only");
+  if (!moves) return std::nullopt;
+  if (!value.find("mean"))
+    value.mistake_at(value.path_of("moves"), "needs \"mean\" and \"covariance\"");
+  const auto first = std::find_if(models.begin(), models.end(), [](const BehaviourModel& model) {
+    return model.tracked() && model.detectable;
+  });
+  const bool has_velocity =
+      first == models.end() || first->kind == BehaviourModel::Kind::kConstantVelocity;
+  for (const char* key : {"velocity", "velocity_covariance"})
+    if (!has_velocity && value.find(key))
+      value.mistake_at(value.path_of(key),
+                       "is nothing that constant_position, the class's first "
+                       "tracked model, has");
+  Arrival::Motion motion;
+  if (const auto velocity = value.find("velocity"))
+    motion.velocity = velocity->point(dims).value_or(motion.velocity);
+  motion.velocity_covariance = read_covariance(value, "velocity_covariance", dims);
+  value.read("at_start", motion.at_start, kNotNegative);
+  return motion;
+}
+
+Arrival read_arrival(const JsonValue& value, const std::vector<BehaviourModel>& models,
+                     const Knowledge& knowledge) {
   Arrival arrival;
-  if (!value.object_of({"place", "mean", "covariance", "rate"})) return arrival;
+  if (!value.object_of({"place", "mean", "covariance", "rate", "moves", "velocity",
+                        "velocity_covariance", "at_start"})) {
+    return arrival;
+  }
   const auto place = value.find("place");
   const auto mean = value.find("mean"), covariance = value.find("covariance");
   if (place && (mean || covariance)) {
@@ -72,16 +115,14 @@ Arrival read_arrival(const JsonValue& value, const Knowledge& knowledge) {
     arrival.place = place->one_of(names(knowledge.places), "place").value_or(-1);
   } else if (mean && covariance) {
     arrival.mean = mean->point(knowledge.dims).value_or(arrival.mean);
-    if (const auto entries = covariance->covariance(knowledge.dims)) {
-      const Eigen::Map<const Eigen::MatrixXd> matrix(entries->data(), knowledge.dims,
-                                                     knowledge.dims);
-      arrival.covariance.topLeftCorner(knowledge.dims, knowledge.dims) = matrix;
-    }
+    arrival.covariance =
+        read_covariance(value, "covariance", knowledge.dims).value_or(arrival.covariance);
   } else {
     value.mistake("must have \"place\", or \"mean\" and \"covariance\"");
   }
   if (!value.find("rate")) value.mistake_at(value.path_of("rate"), "is missing, arrivals per s");
   value.read("rate", arrival.rate, kRate);
+  arrival.motion = read_motion(value, models, knowledge.dims);
   return arrival;
 }
 
@@ -120,7 +161,7 @@ ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge
   if (const auto arrivals = value.find("arrivals")) {
     base.arrivals.clear();
     for (const JsonValue& entry : arrivals->elements(kMostArrivals)) {
-      base.arrivals.push_back(read_arrival(entry, knowledge));
+      base.arrivals.push_back(read_arrival(entry, base.models, knowledge));
     }
   }
   if (const auto extent = value.find("extent")) {

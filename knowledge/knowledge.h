@@ -47,6 +47,14 @@ struct Arrival {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double rate = 0;  ///< expected arrivals per second, over the whole of it
+  /// Normal only: they go on by the class's first detectable tracked model before they are seen.
+  struct Motion {
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< mean, m/s
+    std::optional<Eigen::Matrix3d> velocity_covariance;  ///< else the model's initial variance
+    double at_start = 0;  ///< expected number that have just arrived as the first frame comes
+  };
+  /// None: they stay where they arrive until they are seen.
+  std::optional<Motion> motion = std::nullopt;
 };
 
 /// How an attribute of an object changes by itself: a banana ripens, a candle burns down.

@@ -206,7 +206,22 @@ INSTANTIATE_TEST_SUITE_P(
                          "classes.cup.arrivals[0].covariance", "positive definite"},
                     Case{R"("classes": {"cup": {"arrivals": [{"mean": [1, 1, 1], "rate": 1,
                               "covariance": [1, 0.5, 0, 0, 1, 0, 0, 0, 1]}]}})",
-                         "classes.cup.arrivals[0].covariance", "symmetric"}));
+                         "classes.cup.arrivals[0].covariance", "symmetric"},
+                    Case{R"("classes": {"cup": {"arrivals": [{"place": "table", "rate": 1,
+                              "moves": true}]}})",
+                         "classes.cup.arrivals[0].moves", "needs \"mean\""},
+                    Case{R"("classes": {"cup": {"arrivals": [{"place": "table", "rate": 1,
+                              "at_start": 1}]}})",
+                         "classes.cup.arrivals[0].at_start", "\"moves\": true only"},
+                    Case{R"("classes": {"cup": {"models": [{"kind": "constant_position"}],
+                              "arrivals": [{"mean": [1, 1, 1], "rate": 1, "moves": true,
+                              "covariance": [1, 0, 0, 0, 1, 0, 0, 0, 1],
+                              "velocity": [1, 0, 0]}]}})",
+                         "classes.cup.arrivals[0].velocity", "constant_position"},
+                    Case{R"("classes": {"cup": {"arrivals": [{"mean": [1, 1, 1], "rate": 1,
+                              "moves": true, "covariance": [1, 0, 0, 0, 1, 0, 0, 0, 1],
+                              "velocity_covariance": [1, 0, 0, 0, 0, 0, 0, 0, 1]}]}})",
+                         "classes.cup.arrivals[0].velocity_covariance", "positive definite"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Sensors, OneMistake,
