@@ -23,6 +23,9 @@ class IdentityCount {
   /// One frame: the true positions, by object (the same ones in every frame), and the tracks.
   void add(const std::vector<Eigen::Vector2d>& truth, const std::vector<Track>& tracks);
 
+  /// Per object, the track that it was paired with in the last frame, or -1.
+  const std::vector<std::int64_t>& paired() const { return paired_; }
+
   int switches = 0;
   long misses = 0;   ///< objects without a track
   long strays = 0;   ///< tracks without an object

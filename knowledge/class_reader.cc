@@ -30,13 +30,7 @@ std::optional<int> read_end(const JsonValue& transition, const char* key,
     transition.mistake_at(transition.path_of(key), "is missing; it must be the index of a model");
     return std::nullopt;
   }
-  auto index = value->integer(0, static_cast<int>(models.size()) - 1);
-  if (index && !models[static_cast<std::size_t>(*index)].tracked()) {
-    value->mistake(
-        "is a somewhere model, which is entered at its own \"rate\" and left by a detection only");
-    index.reset();
-  }
-  return index;
+  return value->integer(0, static_cast<int>(models.size()) - 1);
 }
 
 std::vector<Transition> read_transitions(const JsonValue& value,
@@ -51,6 +45,9 @@ std::vector<Transition> read_transitions(const JsonValue& value,
     entry.read("rate", transition.rate, kRate);
     if (!from || !to) continue;
     if (*from == *to) entry.mistake("must lead to another model");
+    if (!models[static_cast<std::size_t>(*from)].tracked())
+      entry.mistake_at(entry.path_of("from"),
+                       "is a somewhere model, which is left by a detection only");
     if (!seen.insert({*from, *to}).second) {
       entry.mistake("stands there already: give one rate from one model to another");
     }

@@ -13,11 +13,14 @@ import argparse
 import collections
 import csv
 import pathlib
-import re
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
 import tables
-from plot import Panel, figure
+from document import put
 from intervals import Runs, interval
+from plot import Panel, figure
 
 
 def read(paths: list[str]) -> Runs:
@@ -85,14 +88,6 @@ def frontier(runs: Runs, studies: list[tuple[str, str, str]], objects: int) -> s
             panel.curve(strategy, points)
         panels.append(panel)
     return figure(panels)
-
-
-def put(document: pathlib.Path, blocks: dict[str, str]) -> None:
-    text = document.read_text(encoding="utf-8")
-    for name, block in blocks.items():
-        pattern = re.compile(rf"(<!-- {re.escape(name)} -->\n).*?(<!-- end -->)", re.S)
-        text = pattern.sub(lambda m, b=block: m[1] + "\n" + b + "\n" + m[2], text)
-    document.write_text(text, encoding="utf-8")
 
 
 def main() -> None:

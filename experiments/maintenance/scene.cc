@@ -42,13 +42,6 @@ std::string bounds(double x, double y, int dims, const std::string& walls = "[]"
 
 }  // namespace
 
-double Dice::uniform() { return (static_cast<double>(bits_() >> 11) + 0.5) * 0x1p-53; }
-
-double Dice::normal() {
-  const double radius = std::sqrt(-2 * std::log(uniform()));
-  return radius * std::cos(2 * kPi * uniform());
-}
-
 Scene thesis_room(const RoomOptions& options, Dice& dice) {
   Scene scene;
   scene.knowledge =

@@ -1,38 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <random>
 #include <vector>
 
+#include "experiments/dice.h"
+#include "experiments/rectangle.h"
 #include "knowledge/knowledge.h"
 
 namespace anchord::experiment {
-
-/// Random numbers that are the same with every standard library.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : bits_(seed) {}
-  double uniform();  ///< in (0, 1)
-  double uniform(double from, double to) { return from + (to - from) * uniform(); }
-  double normal();
-  bool happens(double probability) { return uniform() < probability; }
-
- private:
-  std::mt19937_64 bits_;
-};
-
-/// A rectangle in the plane: corners of least and of greatest x and y.
-struct Rectangle {
-  Eigen::Vector2d low, high;
-  bool contains(const Eigen::Vector2d& p) const {
-    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
-  }
-  Eigen::Vector2d draw(Dice& dice) const {
-    const double x = dice.uniform(low.x(), high.x());
-    return {x, dice.uniform(low.y(), high.y())};
-  }
-};
 
 /// A real object.
 struct Thing {
