@@ -158,7 +158,7 @@ bool PredictedCluster::departed(double min_existence) const {
 std::vector<std::shared_ptr<const Cluster>> associate(
     const std::vector<PredictedCluster>& clusters, const std::vector<int>& detections,
     const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
-    const Background& background, const Belief& belief) {
+    const Background& background, const Belief& belief, double& log_evidence) {
   const Limits& limits = background.knowledge.limits;
   const Tied tied = tie(clusters, limits);
   const AssociationProblem problem = problem_of(tied, detections);
@@ -213,6 +213,8 @@ std::vector<std::shared_ptr<const Cluster>> associate(
       break;
     }
   }
+  log_evidence += total;
+  for (const int z : detections) log_evidence += origins[z].log_weight;
   merge_equal(joint.hypotheses);
   if (limits.scan_depth > 0) {
     merge_alike(joint, background);

@@ -129,17 +129,22 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
 
   belief.clusters = std::move(untouched);
   const std::size_t first_touched = belief.clusters.size();
+  double log_evidence = -frame.sensor->clutter_density * visibility.volume();
   for (const Group& group : groups) {
     if (group.clusters.empty() && group.detections.empty()) continue;
-    for (auto& cluster :
-         associate(group.clusters, group.detections, frame, from, visibility, background, belief))
+    for (auto& cluster : associate(group.clusters, group.detections, frame, from, visibility,
+                                   background, belief, log_evidence))
       belief.clusters.push_back(std::move(cluster));
   }
   belief.births += detections;
   name_anchors(belief, first_touched, background);
   const double time = belief.seconds(frame.utime);
-  for (int c = 0; c < background.classes(); ++c)
-    belief.undetected[c].miss(visibility.look(), frame.sensor->detection_probability[c], time);
+  for (int c = 0; c < background.classes(); ++c) {
+    const double p = frame.sensor->detection_probability[c];
+    log_evidence -=
+        p * background.cell_volume() * belief.undetected[c].miss(visibility.look(), p, time);
+  }
+  belief.log_evidence += log_evidence;
 }
 
 }  // namespace anchord

@@ -1,6 +1,7 @@
 #include "anchoring/visibility.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace anchord {
 namespace {
@@ -30,10 +31,17 @@ Look look_at(const MapView& view, const Tiling& tiling) {
   return look;
 }
 
+double sum(const Look& look) {
+  double shares = 0;
+  for (const Look::Tile& tile : look.tiles)
+    shares = std::accumulate(tile.share.begin(), tile.share.end(), shares);
+  return shares;
+}
+
 }  // namespace
 
 Visibility::Visibility(const MapView& view, const Background& background)
-    : view_(view), background_(&background), look_(look_at(view, *background.tiling)) {}
+    : view_(view), background_(&background), look_(look_at(view, *background.tiling)), volume_(sum(look_) * background.cell_volume()) {}
 
 const std::vector<double>& Visibility::of(const Footprint& footprint) const {
   auto it = footprints_.find(&footprint);

@@ -25,10 +25,14 @@ class Visibility {
   /// Per cell of the world's grid the share in view.
   const Look& look() const { return look_; }
 
+  /// How much of the world is in view, m^dims.
+  double volume() const { return volume_; }
+
  private:
   MapView view_;
   const Background* background_;
   Look look_;
+  double volume_;
   mutable std::map<const Footprint*, std::vector<double>> footprints_;  // filled when asked for
 };
 
