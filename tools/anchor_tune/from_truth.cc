@@ -63,7 +63,7 @@ Result<Findings> findings_from_truth(const std::vector<Recording>& recordings,
     all.insert(all.end(), found.begin(), found.end());
   }
   for (std::size_t s = 0; s < judgement->sensors.size(); ++s) {
-    const auto found = sensor_findings(*judgement, static_cast<int>(s), judging);
+    const auto found = sensor_findings(*judgement, static_cast<int>(s), judging, options.radius);
     all.insert(all.end(), found.begin(), found.end());
   }
   return all;

@@ -18,7 +18,8 @@ Result<Findings> findings_from_truth(const std::vector<Recording>& recordings,
 
 /// Of one sensor (index into judgement.sensors): clutter density, score calibration, confusion,
 /// noise. `knowledge` is what the frames were judged with.
-Findings sensor_findings(const Judgement& judgement, int sensor, const Knowledge& knowledge);
+Findings sensor_findings(const Judgement& judgement, int sensor, const Knowledge& knowledge,
+                         double radius);
 
 /// Of one class: models with their motion, hiding, p_D of each sensor, arrivals and departures.
 Findings class_findings(const Judgement& judgement, int object_class, const Knowledge& knowledge,

@@ -36,7 +36,7 @@ class Judge {
     if (rows != truth_.end()) {
       find_sights(placed->view, rows->second, out);
       for (std::size_t z = 0; z < placed->detections.size(); ++z)
-        out.detections.push_back(unjudged(placed->detections[z], frame.detections[z]));
+        out.detections.push_back(unjudged(placed->detections[z], frame, z));
       match(frame, rows->second, out);
       add_gaps(placed->view, frame.utime, out);
     }
@@ -46,8 +46,21 @@ class Judge {
   }
 
  private:
-  static Judged unjudged(MapDetection placed, const Detection& reported) {
+  /// A vector of the map along the sensor's axes.
+  static Eigen::Vector3d turned(const Pose& pose, const Eigen::Vector3d& v) {
+    const auto& q = pose.orientation;
+    return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().conjugate() * v;
+  }
+
+  Judged unjudged(MapDetection placed, const Frame& frame, std::size_t i) const {
+    const Detection& reported = frame.detections[i];
     Judged z;
+    z.in_sensor = placed.position.mean;
+    if (frame.pose) {
+      const auto& p = frame.pose->position;
+      z.in_sensor -= Eigen::Vector3d(p[0], p[1], background_.dims == 2 ? 0 : p[2]);
+      z.in_sensor = turned(*frame.pose, z.in_sensor);
+    }
     z.placed = std::move(placed);
     z.score = reported.score;
     const auto* cartesian = std::get_if<CartesianMeasurement>(&reported.measurement);
@@ -119,11 +132,7 @@ class Judge {
         judged.residual = judged.placed.position.mean - sight.position;
         if (background_.dims == 2) judged.residual.z() = 0;
         judged.sensor_residual = judged.residual;
-        if (frame.pose) {
-          const auto& q = frame.pose->orientation;
-          judged.sensor_residual =
-              Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().conjugate() * judged.residual;
-        }
+        if (frame.pose) judged.sensor_residual = turned(*frame.pose, judged.residual);
         continue;
       }
       bool neutral = given;

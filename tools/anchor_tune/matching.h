@@ -17,6 +17,7 @@ enum class Verdict { kRight, kFalse, kNeutral };
 struct Judged {
   MapDetection placed;
   std::optional<double> score;
+  Eigen::Vector3d in_sensor = Eigen::Vector3d::Zero();  ///< position, sensor frame
   bool needs_noise = false;  ///< a position without covariance: the sensor's noise holds
   Verdict verdict = Verdict::kNeutral;
   // Only of a right one:

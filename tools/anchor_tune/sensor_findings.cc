@@ -1,5 +1,6 @@
 #include <Eigen/Cholesky>
 
+#include "tools/anchor_tune/crowding.h"
 #include "tools/anchor_tune/from_truth.h"
 #include "tools/anchor_tune/labels.h"
 #include "tools/anchor_tune/scores.h"
@@ -13,6 +14,7 @@ struct Tally {
   double volume = 0;   // m^dims in view, summed over frames
   double squares = 0;  // of normalised residuals, dims for each right one
   bool scored = false;
+  double crowding = 1;
   std::vector<JudgedScore> scores;
 };
 
@@ -56,15 +58,18 @@ void add_clutter(const Tally& t, const JsonPath& at, const std::string& unit, Fi
   const std::string view =
       rounded(t.volume / static_cast<double>(t.frames)) + " " + unit + " in view on average";
   const std::int64_t count = t.scored ? t.right : t.wrong;
-  Estimate kappa = poisson_rate(count, t.volume);
-  if (count == 0) kappa.value = 0.5 / t.volume;
-  const std::string why =
-      t.scored
-          ? "Per " + unit +
-                " at score 0.5. A score is the share of right ones among detections "
-                "like it; so clutter of that look is as dense as right detections are on average: "
-          : "Per " + unit + ": the false ones of ";
-  out.push_back(estimated(at / "clutter_density", kappa, why + counted(t) + ", " + view));
+  Estimate kappa = poisson_rate(count, t.volume / t.crowding);
+  if (count == 0) kappa.value = 0.5 * t.crowding / t.volume;
+  std::string how = "Per " + unit;
+  if (t.scored)
+    how +=
+        " at score 0.5. A score is the share of right ones among detections like it; so "
+        "clutter of that look is as dense as right detections would be, were they spread like "
+        "clutter";
+  how += ": " + counted(t) + ", " + view;
+  if (t.crowding > 1)
+    how += "; where right ones are clutter is " + rounded(t.crowding) + " times as dense as that";
+  out.push_back(estimated(at / "clutter_density", kappa, how));
 }
 
 void add_calibration(const Tally& t, const JsonPath& at, Findings& out) {
@@ -136,10 +141,12 @@ void add_noise(const Tally& t, const Sensor& settings, const JsonPath& at, int d
 
 }  // namespace
 
-Findings sensor_findings(const Judgement& judgement, int sensor, const Knowledge& knowledge) {
+Findings sensor_findings(const Judgement& judgement, int sensor, const Knowledge& knowledge,
+                         double radius) {
   const std::string& name = judgement.sensors[static_cast<std::size_t>(sensor)];
   const JsonPath at = JsonPath("/sensors") / name;
-  const Tally t = tally(judgement, sensor, knowledge.dims);
+  Tally t = tally(judgement, sensor, knowledge.dims);
+  t.crowding = crowding(judgement, sensor, radius, knowledge.dims);
   Findings out;
   add_clutter(t, at, knowledge.dims == 2 ? "m^2" : "m^3", out);
   add_calibration(t, at, out);
