@@ -41,7 +41,10 @@ double sum(const Look& look) {
 }  // namespace
 
 Visibility::Visibility(const MapView& view, const Background& background)
-    : view_(view), background_(&background), look_(look_at(view, *background.tiling)), volume_(sum(look_) * background.cell_volume()) {}
+    : view_(view),
+      background_(&background),
+      look_(look_at(view, *background.tiling)),
+      volume_(sum(look_) * background.cell_volume()) {}
 
 const std::vector<double>& Visibility::of(const Footprint& footprint) const {
   auto it = footprints_.find(&footprint);

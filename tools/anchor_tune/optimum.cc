@@ -128,7 +128,8 @@ double from_free(double free, Scale scale) {
   return scale == Scale::kLog ? std::exp(free) : 1 / (1 + std::exp(-free));
 }
 
-Optimum maximise(const LogLikelihood& f, std::vector<double> start, double step, int budget) {
+Optimum maximise(const LogLikelihood& f, const std::vector<double>& start, double step,
+                 int budget) {
   Optimum first = simplex(f, start, step, budget);
   const int left = budget - first.evaluations;
   if (left <= static_cast<int>(start.size()) + 1) return first;

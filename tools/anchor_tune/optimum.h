@@ -24,7 +24,7 @@ struct Optimum {
 
 /// The greatest value by the simplex of Nelder and Mead (1965), from `start` with first steps of
 /// `step` each; restarted once where it ended. Deterministic. At most about `budget` evaluations.
-Optimum maximise(const LogLikelihood& f, std::vector<double> start, double step, int budget);
+Optimum maximise(const LogLikelihood& f, const std::vector<double>& start, double step, int budget);
 
 /// Where the profile likelihood of parameter i, the others at their best, falls 1.92 below the
 /// optimum (half the 95 % quantile of chi-squared with one degree of freedom), on the parameter's
