@@ -21,14 +21,14 @@ constexpr double kWorthLookingAhead = -6.907755278982137;  // ln 0.001
 
 /// The clusters that detections tie together, as one: anchors in order, leaves numbered through.
 struct Tied {
-  std::vector<const PredictedLeaf*> leaves;
-  std::vector<int> first_leaf;  // per anchor
+  ScratchVector<const PredictedLeaf*> leaves;
+  ScratchVector<int> first_leaf;  // per anchor
   std::vector<std::shared_ptr<const Anchor>> anchors;
   HypothesisSet hypotheses;
   int leading = 0;  // the hypothesis that was shown; -1 if it is no longer there
 };
 
-Tied tie(const std::vector<PredictedCluster>& clusters, const Limits& limits) {
+Tied tie(const ScratchVector<PredictedCluster>& clusters, const Limits& limits) {
   Tied tied;
   for (const PredictedCluster& c : clusters) {
     for (std::size_t a = 0; a < c.leaves.size(); ++a) {
@@ -54,15 +54,17 @@ Tied tie(const std::vector<PredictedCluster>& clusters, const Limits& limits) {
   return tied;
 }
 
-AssociationProblem problem_of(const Tied& tied, const std::vector<int>& detections) {
+AssociationProblem problem_of(const Tied& tied, const ScratchVector<int>& detections) {
   AssociationProblem problem;
   problem.detections = static_cast<int>(detections.size());
-  problem.gain.assign(tied.leaves.size() * detections.size(), kLogZero);
-  for (std::size_t l = 0; l < tied.leaves.size(); ++l)
-    for (const auto& [z, log_gain] : tied.leaves[l]->gains) {
+  for (const PredictedLeaf* leaf : tied.leaves) {
+    auto& gains = problem.gains.emplace_back();
+    for (const auto& [z, log_gain] : leaf->gains) {
       const auto at = std::lower_bound(detections.begin(), detections.end(), z);
-      problem.gain[l * detections.size() + (at - detections.begin())] = log_gain;
+      if (at != detections.end() && *at == z)
+        gains.push_back({static_cast<int>(at - detections.begin()), log_gain});
     }
+  }
   for (const Hypothesis& h : tied.hypotheses) {
     AssociationProblem::Parent parent{h.log_weight, {}};
     for (std::size_t a = 0; a < h.leaf.size(); ++a) {
@@ -79,7 +81,7 @@ AssociationProblem problem_of(const Tied& tied, const std::vector<int>& detectio
 /// The leaves after the frame, made when a hypothesis first needs them.
 class Children {
  public:
-  Children(const Tied& tied, const std::vector<int>& detections, const MapFrame& frame,
+  Children(const Tied& tied, const ScratchVector<int>& detections, const MapFrame& frame,
            std::uint64_t frame_number, const Visibility& visibility, const Background& background)
       : tied_(tied),
         detections_(detections),
@@ -123,12 +125,12 @@ class Children {
   }
 
   const Tied& tied_;
-  const std::vector<int>& detections_;
+  const ScratchVector<int>& detections_;
   const MapFrame& frame_;
   std::uint64_t frame_number_;
   const Visibility& visibility_;
   const Background& background_;
-  std::vector<int> number_;
+  ScratchVector<int> number_;
 };
 
 /// What detection z starts: an anchor with one leaf, or nothing worth keeping.
@@ -156,7 +158,7 @@ bool PredictedCluster::departed(double min_existence) const {
 }
 
 std::vector<std::shared_ptr<const Cluster>> associate(
-    const std::vector<PredictedCluster>& clusters, const std::vector<int>& detections,
+    const ScratchVector<PredictedCluster>& clusters, const ScratchVector<int>& detections,
     const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
     const Background& background, const Belief& belief, double& log_evidence) {
   const Limits& limits = background.knowledge.limits;
@@ -166,7 +168,7 @@ std::vector<std::shared_ptr<const Cluster>> associate(
 
   Cluster joint;
   for (const auto& anchor : tied.anchors) joint.anchors.push_back({anchor, {}});
-  std::vector<int> anchor_of(detections.size(), -1);  // that a detection starts
+  ScratchVector<int> anchor_of(detections.size(), -1);  // that a detection starts
   for (std::size_t z = 0; z < detections.size(); ++z) {
     auto leaf = birth(detections[z], frame, origins[detections[z]], belief.frames, background);
     if (!leaf) continue;
@@ -179,14 +181,13 @@ std::vector<std::shared_ptr<const Cluster>> associate(
   Children children(tied, detections, frame, belief.frames, visibility, background);
   RankedAssociations ranked(problem, background.log_least_weight);
   double total = kLogZero;
-  std::vector<int> given;   // per leaf of the parent: a detection or kMiss
-  double least = kLogZero;  // what is below has not been looked at
-  bool heir = false;        // the most probable child of the world that was shown
+  ScratchVector<int> given(tied.leaves.size(), kMiss);  // per leaf
+  double least = kLogZero;                            // what is below has not been looked at
+  bool heir = false;  // the most probable child of the world that was shown
   while (auto next = ranked.next()) {
     // Below this a weight stays below min_weight whatever else is found.
     if (next->log_weight < total + background.log_least_weight) break;
     total = log_add(total, next->log_weight);
-    given.assign(problem.parents[next->parent].leaves.size(), kMiss);
     Hypothesis h{next->log_weight, {}};
     h.leaf.resize(joint.anchors.size(), Hypothesis::kNoLeaf);
     for (std::size_t z = 0; z < detections.size(); ++z) {
@@ -196,10 +197,13 @@ std::vector<std::shared_ptr<const Cluster>> associate(
         h.leaf[anchor_of[z]] = 0;
     }
     const Hypothesis& parent = tied.hypotheses[next->parent];
-    for (std::size_t a = 0, i = 0; a < old_anchors; ++a) {
+    for (std::size_t a = 0; a < old_anchors; ++a) {
       if (parent.leaf[a] == Hypothesis::kNoLeaf) continue;
-      h.leaf[a] = children.of(tied.first_leaf[a] + parent.leaf[a], given[i++], joint.anchors[a]);
+      const int leaf = tied.first_leaf[a] + parent.leaf[a];
+      h.leaf[a] = children.of(leaf, given[leaf], joint.anchors[a]);
     }
+    for (const int leaf : next->leaf_of)
+      if (leaf != Association::kNone) given[leaf] = kMiss;
     if (!heir && next->parent == tied.leading) {
       heir = true;
       for (std::size_t a = 0; a < old_anchors; ++a) joint.anchors[a].shown = h.leaf[a];

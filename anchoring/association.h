@@ -5,7 +5,9 @@
 
 #include "anchoring/belief.h"
 #include "anchoring/map_frame.h"
+#include "anchoring/nearby.h"
 #include "anchoring/visibility.h"
+#include "mht/association_problem.h"
 
 namespace anchord {
 
@@ -17,18 +19,14 @@ struct PredictedLeaf {
   double log_miss = 0;  ///< ln(1 - r q)
   /// What it is worth to give the leaf a detection: ln of that, over giving it nothing and the
   /// detection being new or clutter. Only detections that it may be given, ascending.
-  struct Gain {
-    int detection;
-    double log_gain;
-  };
-  boost::container::small_vector<Gain, 4> gains;
+  AssociationProblem::Gains gains;
 };
 
 /// A cluster as one frame finds it.
 struct PredictedCluster {
   std::shared_ptr<const Cluster> cluster;
-  std::vector<std::vector<PredictedLeaf>> leaves;  ///< per anchor and leaf
-  std::vector<char> gated;                         ///< per detection: some leaf may be given it
+  ScratchVector<ScratchVector<PredictedLeaf>> leaves;  ///< per anchor and leaf
+  ScratchVector<char> gated;                         ///< per detection: some leaf may be given it
   bool shown = false;                              ///< some leaf may be missed
   bool stepped = false;                            ///< must be carried along in any case
 
@@ -55,12 +53,12 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
                             const Background& background);
 PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame& frame,
                          const std::vector<Origin>& origins, const Visibility& visibility,
-                         const Background& background);
+                         Nearby& nearby, const Background& background);
 /// Associates `detections` (indices into the frame, ascending) with the clusters that they tie
 /// together: the clusters after the frame. Without clusters each detection starts one of its own.
 /// Adds the ln of the sum of all associations' weights to `log_evidence`.
 std::vector<std::shared_ptr<const Cluster>> associate(
-    const std::vector<PredictedCluster>& clusters, const std::vector<int>& detections,
+    const ScratchVector<PredictedCluster>& clusters, const ScratchVector<int>& detections,
     const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
     const Background& background, const Belief& belief, double& log_evidence);
 

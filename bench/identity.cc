@@ -27,20 +27,19 @@ void IdentityCount::add(const std::vector<Eigen::Vector2d>& truth,
         track_of[i] = j;
         taken[j] = 1;
       }
-  Assignment assignment(n, m);
-  std::vector<double> cost(n * (m + 1), std::numeric_limits<double>::infinity());
+  PairGains gains(n, m);
   for (int i = 0; i < n; ++i) {
-    cost[i * (m + 1) + m] = kUnpaired;
-    if (track_of[i] != kFree) continue;
-    for (int j = 0; j < m; ++j) {
+    gains.start_row();
+    for (int j = 0; j < m && track_of[i] == kFree; ++j) {
       const double distance = (tracks[j].position - truth[i]).norm();
-      if (!taken[j] && distance <= radius_) cost[i * (m + 1) + j] = distance;
+      if (!taken[j] && distance <= radius_) gains.add(j, kUnpaired - distance);
     }
   }
-  assignment.solve(cost);
+  const Assignment assignment(gains);
   int pairs = 0;
   for (int i = 0; i < n; ++i) {
-    if (track_of[i] == kFree && assignment.choice(i) < m) track_of[i] = assignment.choice(i);
+    if (track_of[i] == kFree && assignment.choice(i) != Assignment::kNone)
+      track_of[i] = assignment.choice(i);
     paired_[i] = kNone;
     if (track_of[i] == kFree) continue;
     ++pairs;

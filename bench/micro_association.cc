@@ -17,11 +17,14 @@ namespace {
 void BM_Assignment(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
   Dice dice(1);
-  std::vector<double> cost(n * (n + 1));
-  for (double& c : cost) c = dice.uniform(0, 10);
+  PairGains gains(n, n);
+  for (int z = 0; z < n; ++z) {
+    gains.start_row();
+    for (int leaf = 0; leaf < n; ++leaf) gains.add(leaf, dice.uniform(0, 10));
+  }
   for (auto _ : state) {
-    Assignment assignment(n, n);
-    assignment.solve(cost);
+    const Scratch scratch;
+    const Assignment assignment(gains);
     benchmark::DoNotOptimize(assignment.choice(0));
   }
 }
@@ -34,8 +37,10 @@ AssociationProblem ambiguous_problem(int parents, int detections) {
   Dice dice(2);
   AssociationProblem problem;
   problem.detections = detections;
-  for (int i = 0; i < kAnchors * kLeaves * detections; ++i)
-    problem.gain.push_back(dice.chance(0.3) ? kLogZero : dice.uniform(-4, 6));
+  problem.gains.resize(kAnchors * kLeaves);
+  for (auto& gains : problem.gains)
+    for (int z = 0; z < detections; ++z)
+      if (!dice.chance(0.3)) gains.push_back({z, dice.uniform(-4, 6)});
   for (int p = 0; p < parents; ++p) {
     AssociationProblem::Parent parent;
     parent.log_weight = -0.05 * p;
@@ -51,6 +56,7 @@ void BM_RankedAssociations(benchmark::State& state) {
   constexpr int kBest = 100;
   const AssociationProblem problem = ambiguous_problem(100, 5);
   for (auto _ : state) {
+    const Scratch scratch;
     RankedAssociations ranked(problem);
     for (int i = 0; i < kBest; ++i) {
       auto association = ranked.next();
@@ -63,6 +69,40 @@ void BM_RankedAssociations(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_RankedAssociations);
+
+/// One parent: as many leaves as detections, each of which may be given `pairs` of them (all:
+/// dense).
+AssociationProblem square_problem(int n, int pairs, std::uint64_t seed) {
+  Dice dice(seed);
+  AssociationProblem problem;
+  problem.detections = n;
+  problem.gains.resize(n);
+  problem.parents.push_back({0, {}});
+  for (int leaf = 0; leaf < n; ++leaf) {
+    problem.parents[0].leaves.push_back(leaf);
+    std::vector<char> has(n, pairs >= n);
+    for (int i = 0; i < pairs && pairs < n;) {
+      char& one = has[dice.index(n)];
+      i += one ? 0 : 1;
+      one = 1;
+    }
+    for (int z = 0; z < n; ++z)
+      if (has[z]) problem.gains[leaf].push_back({z, dice.uniform(0, 10)});
+  }
+  return problem;
+}
+
+/// The 100 best of a square problem, from its gains on.
+void BM_HundredBest(benchmark::State& state) {
+  const auto problem =
+      square_problem(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 4);
+  for (auto _ : state) {
+    const Scratch scratch;
+    RankedAssociations ranked(problem);
+    for (int i = 0; i < 100; ++i) benchmark::DoNotOptimize(ranked.next());
+  }
+}
+BENCHMARK(BM_HundredBest)->Args({100, 3})->Args({50, 50});
 
 /// Some anchors with two leaves each, all combinations, weights at random: nothing in it is
 /// independent.

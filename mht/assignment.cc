@@ -5,131 +5,207 @@
 
 namespace anchord {
 namespace {
+
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+bool contains(const Assignment::Banned& banned, int choice) {
+  return std::find(banned.begin(), banned.end(), choice) != banned.end();
 }
 
-Assignment::Assignment(int detections, int leaves)
-    : detections_(detections),
-      leaves_(leaves),
-      column_of_(detections, kFree),
-      row_of_(leaves + detections, kFree),
-      row_price_(detections, 0.0),
-      column_price_(leaves + detections, 0.0) {}
+}  // namespace
 
-double Assignment::reduced(int z, int column, const std::vector<double>& cost) const {
-  if (column >= leaves_ && column != leaves_ + z) return kInfinite;
-  const int entry = column < leaves_ ? column : leaves_;
-  return cost[z * (leaves_ + 1) + entry] - row_price_[z] - column_price_[column];
-}
-
-void Assignment::solve(const std::vector<double>& cost) {
-  *this = Assignment(detections_, leaves_);
-  for (int z = 0; z < detections_; ++z) {
-    double least = kInfinite;
-    for (int l = 0; l <= leaves_; ++l) least = std::min(least, cost[z * (leaves_ + 1) + l]);
-    row_price_[z] = least;
+/// Dijkstra from detection z, whose choice was taken away, over detections that lose theirs to one
+/// before them. A path may end in a leaf that nobody has, or in none. If z had a choice before, the
+/// one who gets that must be found, too: then whoever ends the path so makes room for "nobody", who
+/// may take any choice at its price and ends the search by taking what z has lost.
+class Assignment::Search {
+ public:
+  Search(Assignment& a, const PairGains& gains, int z)
+      : a_(a), gains_(gains), z_(z), distance_(a.detections(), kInfinite), from_(a.detections()) {
+    distance_[z] = 0;
+    from_[z] = kStart;
+    reached_.push_back(z);
   }
-  for (int z = 0; z < detections_; ++z) augment(z, kFree, cost, nullptr);
-}
 
-bool Assignment::reassign(int z, const std::vector<double>& cost, const RowFlags& fixed) {
-  const int left = column_of_[z];
-  column_of_[z] = kFree;
-  row_of_[left] = kFree;
-  return augment(z, left, cost, &fixed);
-}
+  static constexpr int kNothing = -2;
 
-/// Dijkstra from row z over reduced costs. Without a target the path ends in the nearest free
-/// column. With one it must end there: the column that z has just left, while the other free
-/// columns count as held by one more row ("nobody") that takes any column at cost 0.
-bool Assignment::augment(int z, int target, const std::vector<double>& cost,
-                         const RowFlags* fixed) {
-  constexpr int kNobody = -2, kStart = -3;
-  const int n = columns();
-  boost::container::small_vector<double, 16> distance(n, kInfinite);
-  boost::container::small_vector<int, 16> from(n, kStart);  // the row (or nobody) that reached it
-  boost::container::small_vector<char, 16> done(n, 0);
-  double nobody_distance = kInfinite;
-  int nobody_column = kFree;
-
-  if (fixed)
-    for (int r = 0; r < detections_; ++r)
-      if ((*fixed)[r]) done[column_of_[r]] = 1;  // out of the graph
-
-  const auto relax_row = [&](int row, double base) {
-    const double* row_cost = &cost[row * (leaves_ + 1)];
-    for (int l = 0; l <= leaves_; ++l) {
-      const int column = l < leaves_ ? l : leaves_ + row;
-      if (done[column]) continue;
-      const double d = base + (row_cost[l] - row_price_[row] - column_price_[column]);
-      if (d < distance[column]) distance[column] = d, from[column] = row;
+  /// False if there is no end. `lost`: what z has lost; kNothing where it had no choice before.
+  bool run(int lost, const Banned& banned) {
+    lost_ = lost;
+    first_free_ = lost == kNothing ? 0 : z_;
+    while (true) {
+      const std::size_t at = nearest();
+      const double row_distance = at < reached_.size() ? distance_[reached_[at]] : kInfinite;
+      const double nobody_distance = nobody_is_done_ ? kInfinite : nobody_distance_;
+      if (end_ <= std::min(row_distance, nobody_distance)) break;
+      if (nobody_distance <= row_distance) {
+        if (lost_ == kNothing) {
+          end_ = nobody_distance;
+          break;
+        }
+        relax_nobody();
+        continue;
+      }
+      const int row = reached_[at];
+      reached_[at] = reached_.back();
+      reached_.pop_back();
+      done_.push_back(row);
+      relax(row, banned);
     }
-  };
-  relax_row(z, 0);
-  int end = kFree;
-  boost::container::small_vector<int, 16> visited;
-  while (true) {
-    int nearest = kFree;
-    for (int c = 0; c < n; ++c)
-      if (!done[c] && distance[c] < kInfinite &&
-          (nearest == kFree || distance[c] < distance[nearest]))
-        nearest = c;
-    if (nearest == kFree) return false;
-    const bool free = row_of_[nearest] == kFree;
-    if (free && (target == kFree || nearest == target)) {
-      end = nearest;
-      break;
+    if (end_ == kInfinite) return false;
+    update_prices();
+    follow();
+    return true;
+  }
+
+ private:
+  static constexpr int kStart = -3, kNobody = -4;
+
+  /// Where in `reached_` the nearest detection stands; behind it if there is none.
+  std::size_t nearest() const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < reached_.size(); ++i)
+      if (distance_[reached_[i]] < distance_[reached_[best]]) best = i;
+    return best;
+  }
+
+  void reach(int row, int from, double distance) {
+    if (!(distance < distance_[row])) return;
+    if (distance_[row] == kInfinite) reached_.push_back(row);
+    distance_[row] = distance;
+    from_[row] = from;
+  }
+
+  void relax(int row, const Banned& banned) {
+    const double base = distance_[row];
+    const auto may = [&](int choice) { return row != z_ || !contains(banned, choice); };
+    for (const PairGains::Entry& pair : gains_.of(row)) {
+      const int owner = a_.owner_[pair.leaf];
+      if (pair.leaf == a_.choice_[row] || (owner != kFree && owner < first_free_) ||
+          !may(pair.leaf))
+        continue;
+      const double distance = base + std::max(a_.slack(row, pair), 0.0);
+      if (pair.leaf == lost_)
+        end_at(distance, row, pair.leaf);
+      else if (owner != kFree)
+        reach(owner, row, distance);
+      else
+        make_room(distance, row, pair.leaf);
     }
-    done[nearest] = 1;
-    visited.push_back(nearest);
-    if (!free) {
-      relax_row(row_of_[nearest], distance[nearest]);
-    } else if (nobody_column == kFree) {
-      nobody_column = nearest;
-      nobody_distance = distance[nearest];
-      for (int c = 0; c < n; ++c) {
-        if (done[c]) continue;
-        const double d = nobody_distance + (0 - free_price_ - column_price_[c]);
-        if (d < distance[c]) distance[c] = d, from[c] = kNobody;
+    const bool has_none = row == z_ ? lost_ == kNone : a_.choice_[row] == kNone;
+    if (!has_none && may(kNone)) make_room(base + std::max(a_.slack_of_none(row), 0.0), row, kNone);
+  }
+
+  void relax_nobody() {
+    nobody_is_done_ = true;
+    const double base = nobody_distance_;
+    end_at(base + (lost_ == kNone ? 0 : a_.column_price_[lost_]), kNobody, lost_);
+    for (int row = z_ + 1; row < a_.detections(); ++row) {
+      const int choice = a_.choice_[row];
+      reach(row, kNobody, base + (choice == kNone ? 0 : a_.column_price_[choice]));
+    }
+  }
+
+  void end_at(double distance, int row, int choice) {
+    if (distance < end_) end_ = distance, end_row_ = row, end_choice_ = choice;
+  }
+  void make_room(double distance, int row, int choice) {
+    if (distance < nobody_distance_)
+      nobody_distance_ = distance, room_row_ = row, room_choice_ = choice;
+  }
+
+  /// Prices of who was passed, so that the path has no slack; all of them shifted so that the free
+  /// ones stay 0.
+  void update_prices() {
+    const double shift = nobody_is_done_ ? end_ - nobody_distance_ : 0;
+    if (shift > 0) {
+      for (double& price : a_.row_price_) price += shift;
+      for (int leaf = 0; leaf < static_cast<int>(a_.owner_.size()); ++leaf)
+        if (a_.owner_[leaf] != kFree || leaf == lost_) a_.column_price_[leaf] -= shift;
+    }
+    for (const int row : done_) {
+      const double closer = end_ - distance_[row];
+      if (closer <= 0) continue;
+      a_.row_price_[row] -= closer;
+      if (row != z_ && a_.choice_[row] != kNone) a_.column_price_[a_.choice_[row]] += closer;
+    }
+  }
+
+  void follow() {
+    int row = end_row_, choice = end_choice_;
+    if (lost_ == kNothing || row == kNobody) row = room_row_, choice = room_choice_;
+    while (true) {
+      const int before = row == z_ ? kNone : a_.choice_[row];
+      a_.choice_[row] = choice;
+      if (choice != kNone) a_.owner_[choice] = row;
+      if (row == z_) break;
+      if (from_[row] == kNobody) {
+        if (before != kNone) a_.owner_[before] = kFree;
+        row = room_row_, choice = room_choice_;
+      } else {
+        row = from_[row], choice = before;
       }
     }
   }
 
-  const double length = distance[end];
-  row_price_[z] += length;
-  for (int c : visited) {
-    column_price_[c] -= length - distance[c];
-    if (row_of_[c] != kFree) row_price_[row_of_[c]] += length - distance[c];
-  }
-  if (nobody_column != kFree) free_price_ += length - nobody_distance;
+  Assignment& a_;
+  const PairGains& gains_;
+  int z_, lost_ = kNothing, first_free_ = 0;  // detections before keep their choices
+  SmallScratchVector<double, 16> distance_;
+  SmallScratchVector<int, 16> from_, reached_, done_;
+  double end_ = kInfinite, nobody_distance_ = kInfinite;
+  int end_row_ = -1, end_choice_ = kNone, room_row_ = -1, room_choice_ = kNone;
+  bool nobody_is_done_ = false;
+};
 
-  for (int column = end;;) {
-    const int row = from[column];
-    if (row == kNobody) {  // nobody takes this column and gives up the one it came through
-      row_of_[column] = kFree;
-      column = nobody_column;
-      continue;
-    }
-    const int next = column_of_[row];
-    column_of_[row] = column;
-    row_of_[column] = row;
-    if (row == z) break;
-    column = next;
-  }
-  return true;
+Assignment::Assignment(const PairGains& gains)
+    : choice_(gains.detections(), kNone),
+      owner_(gains.leaves(), kFree),
+      row_price_(gains.detections(), 0.0),
+      column_price_(gains.leaves(), 0.0) {
+  for (int z = 0; z < gains.detections(); ++z) augment(z, gains);
 }
 
-double Assignment::cost(const std::vector<double>& cost) const {
+void Assignment::augment(int z, const PairGains& gains) {
+  double price = 0;
+  int best = kNone;
+  for (const PairGains::Entry& pair : gains.of(z))
+    if (const double rest = pair.gain - column_price_[pair.leaf]; rest > price)
+      price = rest, best = pair.leaf;
+  row_price_[z] = price;
+  if (best == kNone || owner_[best] == kFree) {
+    choice_[z] = best;
+    if (best != kNone) owner_[best] = z;
+    return;
+  }
+  // Detections after z have no choice yet, nor are they asked.
+  Search(*this, gains, z).run(Search::kNothing, {});
+}
+
+bool Assignment::reassign(int z, const Banned& banned, const PairGains& gains) {
+  const int lost = choice_[z];
+  if (lost != kNone) owner_[lost] = kFree;
+  return Search(*this, gains, z).run(lost, banned);
+}
+
+double Assignment::gain(const PairGains& gains) const {
   double sum = 0;
-  for (int z = 0; z < detections_; ++z) sum += cost[z * (leaves_ + 1) + choice(z)];
+  for (int z = 0; z < detections(); ++z) {
+    if (choice_[z] == kNone) continue;
+    for (const PairGains::Entry& pair : gains.of(z))
+      if (pair.leaf == choice_[z]) sum += pair.gain;
+  }
   return sum;
 }
 
-double Assignment::least_loss(int z, const std::vector<double>& cost) const {
+double Assignment::least_loss(int z, const Banned& banned, const PairGains& gains) const {
   double least = kInfinite;
-  for (int l = 0; l <= leaves_; ++l) {
-    if (l == choice(z)) continue;
-    least = std::min(least, reduced(z, l < leaves_ ? l : leaves_ + z, cost));
+  if (choice_[z] != kNone && !contains(banned, kNone)) least = slack_of_none(z);
+  for (const PairGains::Entry& pair : gains.of(z)) {
+    const int owner = owner_[pair.leaf];
+    if (pair.leaf == choice_[z] || (owner != kFree && owner < z) || contains(banned, pair.leaf))
+      continue;
+    least = std::min(least, slack(z, pair));
   }
   return std::max(least, 0.0);
 }

@@ -1,55 +1,56 @@
 #pragma once
 
-#include <boost/container/small_vector.hpp>
-#include <vector>
+#include "core/scratch.h"
+#include "mht/pair_gains.h"
 
 namespace anchord {
 
-/// One flag for each detection.
-using RowFlags = boost::container::small_vector<char, 16>;
-
-/// Which leaf each detection is given to, at most one detection to a leaf, or to none: the
-/// assignment of least cost, with the dual prices that prove it.
+/// Which leaf each detection is given to, at most one detection to a leaf, or to none (worth 0):
+/// the assignment of most gain, with the prices that prove it.
 ///
-/// Costs are a dense matrix, one row per detection: cost[z * (leaves + 1) + l]; the last entry of a
-/// row is the cost of no leaf; infinity forbids. Solved by shortest augmenting paths on reduced
-/// costs (Jonker and Volgenant 1987). A solution that loses one pair goes on from its prices: one
-/// path, which is what ranking needs (Miller, Stone, Cox 1997). A value: copies share nothing.
+/// Prices are at least 0 (of who may not go without, they may be less), a pair's gain is at most
+/// the sum of its prices, just that for pairs that are chosen, and who goes without has price 0.
+/// Solved by shortest augmenting paths on what is left of that sum, the slack (Jonker and Volgenant
+/// 1987). A solution that loses a pair goes on from its prices: one path, which is what ranking
+/// needs (Miller, Stone, Cox 1997). A value: copies share nothing; the gains stay with the caller.
 class Assignment {
  public:
-  Assignment(int detections, int leaves);
+  static constexpr int kNone = -1;
+  /// Choices that a detection has lost: leaves, or kNone.
+  using Banned = SmallScratchVector<int, 4>;
 
-  /// The optimum of these costs. Every row must have a finite entry that no other row can take
-  /// (its last one).
-  void solve(const std::vector<double>& cost);
+  /// The optimum.
+  explicit Assignment(const PairGains& gains);
 
-  /// Goes on to the optimum after the pair (z, choice(z)) and possibly others have been made
-  /// infinite in row z of `cost`. Rows with a flag in `fixed` keep theirs. False if there is no
-  /// assignment left; the object is then spent.
-  bool reassign(int z, const std::vector<double>& cost, const RowFlags& fixed);
+  /// Goes on to the optimum after detection z has lost its choice and the others in `banned`, and
+  /// the detections before z may not change theirs. False if there is none; the object is then
+  /// spent.
+  bool reassign(int z, const Banned& banned, const PairGains& gains);
 
-  /// What detection z is given to: a leaf, or leaves() for none.
-  int choice(int z) const { return column_of_[z] < leaves_ ? column_of_[z] : leaves_; }
-  int detections() const { return detections_; }
-  int leaves() const { return leaves_; }
+  /// What detection z is given to: a leaf or kNone.
+  int choice(int z) const { return choice_[z]; }
+  int detections() const { return static_cast<int>(choice_.size()); }
 
-  double cost(const std::vector<double>& cost) const;
+  double gain(const PairGains& gains) const;
 
-  /// A lower bound on what it costs if z may not keep its choice: the least reduced cost among the
-  /// row's other entries.
-  double least_loss(int z, const std::vector<double>& cost) const;
+  /// A lower bound on what it loses if z may not keep its choice: the least slack among the other
+  /// choices that it has, where the detections before it keep theirs.
+  double least_loss(int z, const Banned& banned, const PairGains& gains) const;
+
+  /// What the prices leave of a pair; of kNone.
+  double slack(int z, const PairGains::Entry& pair) const {
+    return row_price_[z] + column_price_[pair.leaf] - pair.gain;
+  }
+  double slack_of_none(int z) const { return row_price_[z]; }
 
  private:
   static constexpr int kFree = -1;
-  int columns() const { return leaves_ + detections_; }
-  double reduced(int z, int column, const std::vector<double>& cost) const;
-  bool augment(int z, int target, const std::vector<double>& cost, const RowFlags* fixed);
+  void augment(int z, const PairGains& gains);
+  class Search;
 
-  int detections_, leaves_;
-  // Columns: the leaves, then each detection's own "none".
-  boost::container::small_vector<int, 8> column_of_, row_of_;
-  boost::container::small_vector<double, 8> row_price_, column_price_;
-  double free_price_ = 0;  // of whoever holds the columns that no detection has
+  // Per detection and per leaf.
+  SmallScratchVector<int, 8> choice_, owner_;
+  SmallScratchVector<double, 8> row_price_, column_price_;
 };
 
 }  // namespace anchord

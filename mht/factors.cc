@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numeric>
-#include <unordered_map>
+#include <span>
+#include <utility>
+
+#include "core/hash_table.h"
 
 namespace anchord {
 namespace {
@@ -32,45 +34,55 @@ std::uint64_t hash_of(const Change& change) {
 
 class Factoriser {
  public:
-  Factoriser(const HypothesisSet& set, const Cut& cut) : set_(set), cut_(cut) {
-    const std::size_t anchors = set.front().leaf.size();
-    parent_.resize(anchors);
+  Factoriser(const HypothesisSet& set, const Cut& cut)
+      : set_(set), cut_(cut), parent_(set.front().leaf.size()), by_key_(set.size()) {
+    const std::size_t anchors = parent_.size();
     std::iota(parent_.begin(), parent_.end(), 0);
     for (std::size_t h = 0; h < set.size(); ++h) {
-      auto& changes = changes_.emplace_back();
+      first_.push_back(changes_.size());
       std::uint64_t key = 0;
       for (std::size_t a = 0; a < anchors; ++a)
         if (set[h].leaf[a] != set[0].leaf[a]) {
-          changes.push_back({static_cast<int>(a), set[h].leaf[a]});
-          key ^= hash_of(changes.back());
+          changes_.push_back({static_cast<int>(a), set[h].leaf[a]});
+          key ^= hash_of(changes_.back());
         }
       keys_.push_back(key);
-      by_key_.emplace(key, static_cast<int>(h));
+      weights_.push_back(std::exp(set[h].log_weight));
+      by_key_.insert(key, static_cast<int>(h));
     }
+    first_.push_back(changes_.size());
     while (unite_unexplained() || unite_exclusive()) {
     }
   }
 
   std::vector<Factor> factors() {
-    std::map<int, Factor> by_root;
-    for (int a = 0; a < static_cast<int>(parent_.size()); ++a)
-      by_root[find(a)].anchors.push_back(a);
-    for (std::size_t h = 0; h < set_.size(); ++h) {
-      if (changes_[h].empty()) {
-        for (auto& [root, factor] : by_root) add(factor, static_cast<int>(h));
-      } else if (const int root = only_group(static_cast<int>(h)); root >= 0) {
-        add(by_root[root], static_cast<int>(h));
-      }
-    }
     std::vector<Factor> out;
-    for (auto& [root, factor] : by_root) {
-      normalise(factor.hypotheses);
-      out.push_back(std::move(factor));
+    ScratchVector<int> factor_of(parent_.size(), -1);  // per root
+    for (int a = 0; a < static_cast<int>(parent_.size()); ++a) {
+      int& factor = factor_of[find(a)];
+      if (factor < 0) {
+        factor = static_cast<int>(out.size());
+        out.emplace_back();
+      }
+      out[factor].anchors.push_back(a);
     }
+    for (int h = 0; h < static_cast<int>(set_.size()); ++h) {
+      if (changes(h).empty())
+        for (Factor& factor : out) add(factor, h);
+      else if (const int root = only_group(h); root >= 0)
+        add(out[factor_of[root]], h);
+    }
+    for (Factor& factor : out) normalise(factor.hypotheses);
     return out;
   }
 
  private:
+  /// Some of the changes of a hypothesis: those in one group.
+  struct Part {
+    int root;
+    std::uint64_t key;
+  };
+
   int find(int a) {
     while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
     return a;
@@ -80,12 +92,14 @@ class Factoriser {
     parent_[std::max(a, b)] = std::min(a, b);
   }
 
-  double log_ratio(int h) const { return set_[h].log_weight - set_[0].log_weight; }
+  std::span<const Change> changes(int h) const {
+    return {changes_.data() + first_[h], changes_.data() + first_[h + 1]};
+  }
 
   /// The group that holds all of a hypothesis' changes, or -1.
   int only_group(int h) {
-    const int root = find(changes_[h].front().anchor);
-    for (const Change& change : changes_[h])
+    const int root = find(changes(h).front().anchor);
+    for (const Change& change : changes(h))
       if (find(change.anchor) != root) return -1;
     return root;
   }
@@ -99,21 +113,29 @@ class Factoriser {
   /// Joins groups whose joint changes do not weigh the product of their single ones.
   bool unite_unexplained() {
     bool united = false;
-    for (std::size_t h = 1; h < set_.size(); ++h) {
-      std::map<int, std::uint64_t> parts;  // by group: the key of its changes
-      for (const Change& change : changes_[h]) parts[find(change.anchor)] ^= hash_of(change);
-      if (parts.size() < 2) continue;
-      double log_product = set_[0].log_weight;
-      bool explained = true;
-      for (const auto& [root, key] : parts) {
-        const auto single = by_key_.find(key);
-        explained = explained && single != by_key_.end();
-        if (explained) log_product += log_ratio(single->second);
+    SmallScratchVector<Part, 16> parts;
+    for (int h = 1; h < static_cast<int>(set_.size()); ++h) {
+      parts.clear();
+      for (const Change& change : changes(h)) {
+        const int root = find(change.anchor);
+        const auto at = std::find_if(parts.begin(), parts.end(),
+                                     [root](const Part& part) { return part.root == root; });
+        if (at == parts.end())
+          parts.push_back({root, hash_of(change)});
+        else
+          at->key ^= hash_of(change);
       }
-      const double product = std::exp(log_product), actual = std::exp(set_[h].log_weight);
-      if (explained && std::abs(product - actual) <= cut_.absolute + cut_.relative * product)
+      if (parts.size() < 2) continue;
+      double product = weights_[0];
+      bool explained = true;
+      for (const Part& part : parts) {
+        const int single = by_key_.find(part.key);
+        explained = explained && single >= 0;
+        if (explained) product *= weights_[single] / weights_[0];
+      }
+      if (explained && std::abs(product - weights_[h]) <= cut_.absolute + cut_.relative * product)
         continue;
-      for (const auto& [root, key] : parts) unite(parts.begin()->first, root);
+      for (const Part& part : parts) unite(parts.front().root, part.root);
       united = true;
     }
     return united;
@@ -121,24 +143,29 @@ class Factoriser {
 
   /// Joins groups whose changes exclude each other: combinations that should be there are not.
   bool unite_exclusive() {
-    std::map<int, std::vector<int>> singles;  // by group, best first
+    ScratchVector<std::pair<int, int>> singles;  // group and hypothesis; in a group best first
     for (int h = 1; h < static_cast<int>(set_.size()); ++h)
-      if (const int root = only_group(h); root >= 0) singles[root].push_back(h);
+      if (const int root = only_group(h); root >= 0) singles.push_back({root, h});
+    std::sort(singles.begin(), singles.end());
+    ScratchVector<std::size_t> groups;  // where they begin
+    for (std::size_t i = 0; i < singles.size(); ++i)
+      if (i == 0 || singles[i].first != singles[i - 1].first) groups.push_back(i);
+    groups.push_back(singles.size());
     bool united = false;
-    for (auto i = singles.begin(); i != singles.end(); ++i)
-      for (auto j = std::next(i); j != singles.end(); ++j) {
-        if (find(i->first) == find(j->first)) continue;
+    for (std::size_t g = 0; g + 2 < groups.size(); ++g)
+      for (std::size_t k = g + 1; k + 1 < groups.size(); ++k) {
+        const int one = singles[groups[g]].first, other = singles[groups[k]].first;
+        if (find(one) == find(other)) continue;
         double missed = 0;
-        for (int a : i->second) {
-          for (int b : j->second) {
-            const double expected = std::exp(set_[0].log_weight + log_ratio(a) + log_ratio(b));
+        for (std::size_t i = groups[g]; i < groups[g + 1] && missed <= cut_.absolute; ++i)
+          for (std::size_t j = groups[k]; j < groups[k + 1]; ++j) {
+            const int a = singles[i].second, b = singles[j].second;
+            const double expected = weights_[a] * weights_[b] / weights_[0];
             if (expected <= kClearly * cut_.floor) break;
-            if (!by_key_.count(keys_[a] ^ keys_[b])) missed += expected;
+            if (by_key_.find(keys_[a] ^ keys_[b]) < 0) missed += expected;
           }
-          if (missed > cut_.absolute) break;
-        }
         if (missed <= cut_.absolute) continue;
-        unite(i->first, j->first);
+        unite(one, other);
         united = true;
       }
     return united;
@@ -146,10 +173,12 @@ class Factoriser {
 
   const HypothesisSet& set_;
   Cut cut_;
-  std::vector<int> parent_;
-  std::vector<std::vector<Change>> changes_;  // per hypothesis, from the best one
-  std::vector<std::uint64_t> keys_;
-  std::unordered_map<std::uint64_t, int> by_key_;
+  ScratchVector<int> parent_;
+  ScratchVector<Change> changes_;  // of all hypotheses, from the best one
+  ScratchVector<std::size_t> first_;
+  ScratchVector<std::uint64_t> keys_;
+  ScratchVector<double> weights_;
+  HashTable by_key_;
 };
 
 }  // namespace
@@ -157,6 +186,7 @@ class Factoriser {
 std::vector<Factor> factorise(const HypothesisSet& set, const Cut& cut) {
   if (set.empty() || set.front().leaf.empty()) return {};
   if (set.front().leaf.size() == 1) return {{{0}, set}};
+  const Scratch scratch;
   return Factoriser(set, cut).factors();
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <queue>
-#include <unordered_map>
 
+#include "core/hash_table.h"
 #include "core/log_probability.h"
 
 namespace anchord {
@@ -21,30 +21,31 @@ std::uint64_t hash_of(const Hypothesis& h) {
 }  // namespace
 
 void normalise(HypothesisSet& set) {
-  std::stable_sort(set.begin(), set.end(), [](const Hypothesis& a, const Hypothesis& b) {
+  const auto better = [](const Hypothesis& a, const Hypothesis& b) {
     return a.log_weight > b.log_weight;
-  });
+  };
+  if (!std::is_sorted(set.begin(), set.end(), better)) std::stable_sort(set.begin(), set.end(), better);
   const double total = log_sum(set, [](const Hypothesis& h) { return h.log_weight; });
   for (auto& h : set) h.log_weight -= total;
 }
 
 void merge_equal(HypothesisSet& set) {
-  std::unordered_map<std::uint64_t, boost::container::small_vector<std::size_t, 1>> by_hash;
-  by_hash.reserve(set.size());
-  HypothesisSet merged;
-  merged.reserve(set.size());
-  for (auto& h : set) {
-    auto& same_hash = by_hash[hash_of(h)];
-    const auto equal = std::find_if(same_hash.begin(), same_hash.end(),
-                                    [&](std::size_t i) { return merged[i].leaf == h.leaf; });
-    if (equal != same_hash.end()) {
-      merged[*equal].log_weight = log_add(merged[*equal].log_weight, h.log_weight);
+  const Scratch scratch;
+  HashTable by_hash(set.size());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const std::uint64_t hash = hash_of(set[i]);
+    const int equal =
+        by_hash.find(hash, [&](int other) { return set[other].leaf == set[i].leaf; });
+    if (equal >= 0) {
+      set[equal].log_weight = log_add(set[equal].log_weight, set[i].log_weight);
       continue;
     }
-    same_hash.push_back(merged.size());
-    merged.push_back(std::move(h));
+    by_hash.insert(hash, static_cast<int>(kept));
+    if (kept != i) set[kept] = std::move(set[i]);
+    ++kept;
   }
-  set = std::move(merged);
+  set.resize(kept);
   normalise(set);
 }
 

@@ -1,115 +1,108 @@
 #include "mht/ranked_associations.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace anchord {
 namespace {
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-}
+
+/// Where what is within reach has all been given, the next reach. No association is likely to be
+/// just that far below the best.
+constexpr double kFurther = 1.618033988749895;
+/// From here on all of it.
+constexpr double kMostReach = 100;
+
+}  // namespace
 
 RankedAssociations::RankedAssociations(const AssociationProblem& problem, double log_least)
-    : problem_(problem), costs_(problem.parents.size()), log_least_(log_least) {
-  for (std::size_t p = 0; p < problem.parents.size(); ++p) {
-    const auto& parent = problem.parents[p];
-    double bound = parent.log_weight;  // every detection gets its best leaf, shared or not
-    for (int z = 0; z < problem.detections; ++z) {
-      double best = 0;
-      for (int leaf : parent.leaves)
-        best = std::max(best, problem.gain[leaf * problem.detections + z]);
-      bound += best;
-    }
-    push({bound, static_cast<int>(p), false, -1, Assignment(0, 0), {}, {}});
+    : problem_(problem), log_least_(log_least), reach_(-log_least), components_(problem, -log_least) {
+  for (const auto& parent : problem_.parents) {
+    Choices& choices = choices_.emplace_back();
+    choices.best = parent.log_weight;
+    choices.components = components_.of(parent);
+    for (const int c : choices.components) choices.best += components_.at(c).best;
+    best_ = std::max(best_, choices.best);
+  }
+  if (components_.large()) reach_ = std::min(components_.first_reach(), -log_least);
+  start();
+}
+
+void RankedAssociations::start() {
+  components_.take_apart(reach_);
+  heap_.clear();
+  created_ = 0;
+  for (std::size_t p = 0; p < choices_.size(); ++p) {
+    Choices& choices = choices_[p];
+    if (choices.best < best_ + log_least_) continue;
+    choices.blocks.clear();
+    for (const int c : choices.components)
+      for (Block& block : components_.at(c).blocks) choices.blocks.push_back(&block);
+    Node node{choices.best, static_cast<int>(p), 0, {}, 0};
+    node.rank.assign(choices.blocks.size(), 0);
+    push(std::move(node));
   }
 }
 
 void RankedAssociations::push(Node node) {
-  enter({node.bound, nodes_.size()});
-  nodes_.push_back(std::move(node));
-}
-
-void RankedAssociations::enter(Entry entry) {
-  heap_.push_back(entry);
+  node.number = created_++;
+  heap_.push_back(std::move(node));
   std::push_heap(heap_.begin(), heap_.end());
 }
 
-const std::vector<double>& RankedAssociations::costs_of(int parent) {
-  auto& costs = costs_[parent];
-  const auto& leaves = problem_.parents[parent].leaves;
-  if (costs.empty() && problem_.detections > 0) {
-    costs.reserve(problem_.detections * (leaves.size() + 1));
-    for (int z = 0; z < problem_.detections; ++z) {
-      for (int leaf : leaves) costs.push_back(-problem_.gain[leaf * problem_.detections + z]);
-      costs.push_back(0);
-    }
+/// Each combination is reached once: by counting up its blocks in their order.
+void RankedAssociations::push_children(const Node& node) {
+  const auto& blocks = choices_[node.parent].blocks;
+  for (int b = node.last; b < static_cast<int>(blocks.size()); ++b) {
+    RankedAssignments& ranked = blocks[b]->ranked;
+    const int rank = node.rank[b];
+    if (!ranked.has(rank + 1)) continue;
+    const double log_weight = node.log_weight + (ranked.gain(rank + 1) - ranked.gain(rank));
+    if (log_weight < best_ + log_least_) continue;
+    Node child{log_weight, node.parent, b, node.rank, 0};
+    ++child.rank[b];
+    push(std::move(child));
   }
-  return costs;
 }
 
-bool RankedAssociations::solve(Node& node) {
-  const auto& costs = costs_of(node.parent);
-  const auto& parent = problem_.parents[node.parent];
-  if (node.banned_row < 0) {
-    node.assignment = Assignment(problem_.detections, static_cast<int>(parent.leaves.size()));
-    node.assignment.solve(costs);
-    node.fixed.assign(problem_.detections, 0);
-  } else {
-    scratch_ = costs;
-    for (int entry : node.banned) scratch_[entry] = kInfinite;
-    if (!node.assignment.reassign(node.banned_row, scratch_, node.fixed)) return false;
-  }
-  node.bound = parent.log_weight - node.assignment.cost(costs);
-  node.solved = true;
-  return true;
+bool RankedAssociations::pop(Node& node) {
+  if (heap_.empty()) return false;
+  std::pop_heap(heap_.begin(), heap_.end());
+  node = std::move(heap_.back());
+  heap_.pop_back();
+  push_children(node);
+  return node.log_weight >= best_ - reach_;
 }
 
-/// Splits what is left of a solved node: for each free row in turn, rows before it keep their
-/// choice and the row itself loses it.
-void RankedAssociations::branch(const Node& node) {
-  const auto& costs = costs_of(node.parent);
-  scratch_ = costs;
-  for (int entry : node.banned) scratch_[entry] = kInfinite;
-  const int width = node.assignment.leaves() + 1;
-  RowFlags fixed = node.fixed;
-  for (int z = 0; z < problem_.detections; ++z) {
-    if (fixed[z]) continue;
-    const double loss = node.assignment.least_loss(z, scratch_);
-    if (node.bound - loss > least_bound_) {
-      Node child{node.bound - loss, node.parent, false, z, node.assignment, fixed, {}};
-      for (int entry : node.banned)
-        if (!fixed[entry / width]) child.banned.push_back(entry);
-      child.banned.push_back(z * width + node.assignment.choice(z));
-      push(std::move(child));
-    }
-    fixed[z] = 1;
+Association RankedAssociations::association_of(const Node& node) {
+  Association found{node.parent, node.log_weight, {}};
+  found.leaf_of.resize(problem_.detections, Association::kNone);
+  const Choices& choices = choices_[node.parent];
+  for (const int c : choices.components) {
+    const Component& component = components_.at(c);
+    for (std::size_t i = 0; i < component.detections.size(); ++i)
+      found.leaf_of[component.detections[i]] = component.best_leaf[i];
   }
+  for (std::size_t b = 0; b < choices.blocks.size(); ++b) {
+    Block& block = *choices.blocks[b];
+    for (std::size_t i = 0; i < block.detections.size(); ++i) {
+      const int leaf = block.ranked.leaf_of(node.rank[b], static_cast<int>(i));
+      found.leaf_of[block.detections[i]] =
+          leaf == Assignment::kNone ? Association::kNone : block.leaves[leaf];
+    }
+  }
+  return found;
 }
 
 std::optional<Association> RankedAssociations::next() {
-  while (!heap_.empty()) {
-    std::pop_heap(heap_.begin(), heap_.end());
-    const std::size_t index = heap_.back().node;
-    heap_.pop_back();
-    Node& node = nodes_[index];  // a deque's elements stay where they are
-    if (!node.solved) {
-      if (!solve(node)) continue;
-      if (!heap_.empty() && node.bound < heap_.front().bound) {
-        enter({node.bound, index});
-        continue;
-      }
-    }
-    if (least_bound_ == kLogZero) least_bound_ = node.bound + log_least_;
-    branch(node);
-    Association found{node.parent, node.bound, {}};
-    found.leaf_of.resize(problem_.detections);
-    const int none = node.assignment.leaves();
-    for (int z = 0; z < problem_.detections; ++z) {
-      const int choice = node.assignment.choice(z);
-      found.leaf_of[z] = choice == none ? Association::kNone : choice;
-    }
-    return found;
+  Node node;
+  while (!pop(node)) {
+    if (!components_.large() || reach_ >= -log_least_) return std::nullopt;
+    const double next = reach_ < kMostReach ? kFurther * reach_ : -kLogZero;
+    reach_ = std::min(next, -log_least_);
+    start();
+    for (std::size_t i = 0; i < given_; ++i) pop(node);
   }
-  return std::nullopt;
+  ++given_;
+  return association_of(node);
 }
 
 }  // namespace anchord

@@ -1,41 +1,17 @@
 #pragma once
 
-#include <deque>
 #include <optional>
-#include <vector>
 
 #include "core/log_probability.h"
-#include "mht/assignment.h"
+#include "mht/association_problem.h"
+#include "mht/components.h"
 
 namespace anchord {
 
-/// One frame's association within a cluster, in log-weights. Leaves and detections are numbers.
-struct AssociationProblem {
-  /// A hypothesis before the frame, its leaves taken as if each gave nothing and every detection
-  /// as new or clutter.
-  struct Parent {
-    double log_weight = 0;
-    std::vector<int> leaves;  ///< rows of `gain`
-  };
-  int detections = 0;
-  /// gain[leaf * detections + z]: ln of what it is worth to give z to the leaf instead,
-  /// ln (r g / (1 - r q)) - ln (kappa + e); kLogZero where it cannot be.
-  std::vector<double> gain;
-  std::vector<Parent> parents;
-};
-
-/// One hypothesis after the frame.
-struct Association {
-  static constexpr int kNone = -1;
-  int parent = 0;
-  double log_weight = 0;
-  boost::container::small_vector<int, 8>
-      leaf_of;  ///< per detection a position in the parent's `leaves`, or kNone
-};
-
-/// All associations of a problem, best first, over all parents at once: one heap of subproblems
-/// (Murty 1968), each entered with a bound and solved only when it comes to the top (Miller, Stone,
-/// Cox 1997). Ties come in a fixed order.
+/// All associations of a problem, best first, over all parents at once. What a parent's detections
+/// may be given to falls apart into components that are ranked on their own, once for all parents
+/// that share them; one heap merges the products of their rankings, of which it forms no more than
+/// are asked for. Ties come in a fixed order.
 class RankedAssociations {
  public:
   /// Associations whose log-weight is less than the best one's plus `log_least` may be left out.
@@ -45,36 +21,37 @@ class RankedAssociations {
   std::optional<Association> next();
 
  private:
-  struct Node {
-    double bound;  // log weight, exact once solved
-    int parent;
-    bool solved;
-    int banned_row;                                 // the row that must change, -1 for a root
-    Assignment assignment;                          // of the node it came from, until solved
-    RowFlags fixed;                                 // rows that may not change
-    boost::container::small_vector<int, 8> banned;  // entries of the cost matrix made infinite
+  /// A parent with its blocks: what there is to choose.
+  struct Choices {
+    double best = 0;  // log-weight
+    ScratchVector<int> components;
+    ScratchVector<Block*> blocks;
   };
-  /// A node's place in the heap.
-  struct Entry {
-    double bound;
-    std::size_t node;  // in order of creation: breaks ties
-    bool operator<(const Entry& other) const {
-      return bound != other.bound ? bound < other.bound : node > other.node;
+  /// A parent's association: for each of its blocks which one of its ranking.
+  struct Node {
+    double log_weight;
+    int parent;
+    int last;  // block that was changed last: those before stay
+    SmallScratchVector<int, 8> rank;
+    std::size_t number;  // in order of creation: breaks ties
+    bool operator<(const Node& other) const {
+      return log_weight != other.log_weight ? log_weight < other.log_weight : number > other.number;
     }
   };
-  const std::vector<double>& costs_of(int parent);
-  bool solve(Node& node);
-  void branch(const Node& node);
+  void start();
   void push(Node node);
-  void enter(Entry entry);
+  void push_children(const Node& node);
+  bool pop(Node& node);
+  Association association_of(const Node& node);
 
   const AssociationProblem& problem_;
-  std::vector<std::vector<double>> costs_;  // per parent, made when first needed
-  std::vector<double> scratch_;
-  std::deque<Node> nodes_;
-  std::vector<Entry> heap_;
   double log_least_;
-  double least_bound_ = kLogZero;  // of nodes worth keeping, once the best is known
+  double reach_;  // below the best: what has been ranked
+  double best_ = kLogZero;
+  std::size_t given_ = 0, created_ = 0;
+  Components components_;
+  ScratchVector<Choices> choices_;  // per parent
+  ScratchVector<Node> heap_;
 };
 
 }  // namespace anchord

@@ -23,12 +23,13 @@ inline std::vector<Association> every_association(const AssociationProblem& prob
       leaf_of[z] = Association::kNone;
       self(self, z + 1, weight);
       for (std::size_t l = 0; l < parent.leaves.size(); ++l) {
-        const double gain = problem.gain[parent.leaves[l] * problem.detections + z];
-        if (used[l] || gain == kLogZero) continue;
-        used[l] = 1;
-        leaf_of[z] = static_cast<int>(l);
-        self(self, z + 1, weight + gain);
-        used[l] = 0;
+        for (const auto& gain : problem.gains[parent.leaves[l]]) {
+          if (used[l] || gain.detection != z) continue;
+          used[l] = 1;
+          leaf_of[z] = parent.leaves[l];
+          self(self, z + 1, weight + gain.log_gain);
+          used[l] = 0;
+        }
       }
     };
     recurse(recurse, 0, parent.log_weight);

@@ -12,7 +12,7 @@ namespace {
 
 /// Gains as they come about: many impossible, some worth more than new or clutter.
 AssociationProblem random_problem(std::mt19937_64& random, int max_detections, int max_leaves,
-                                  int max_parents) {
+                                  int max_parents, int density = 3) {
   const auto upto = [&](int n) { return static_cast<int>(random() % (n + 1)); };
   const auto real = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
@@ -20,8 +20,10 @@ AssociationProblem random_problem(std::mt19937_64& random, int max_detections, i
   AssociationProblem problem;
   problem.detections = upto(max_detections);
   const int leaves = upto(max_leaves);
-  for (int i = 0; i < leaves * problem.detections; ++i)
-    problem.gain.push_back(upto(3) == 0 ? kLogZero : real(-8, 12));
+  problem.gains.resize(leaves);
+  for (auto& gains : problem.gains)
+    for (int z = 0; z < problem.detections; ++z)
+      if (upto(density) > 0) gains.push_back({z, real(-8, 12)});
   for (int p = 0; p <= upto(max_parents - 1); ++p) {
     AssociationProblem::Parent parent{real(-6, 0), {}};
     for (int l = 0; l < leaves; ++l)
@@ -37,13 +39,13 @@ TEST(RankedAssociations, GiveEveryAssociationOnceAndBestFirst) {
     const auto problem = random_problem(random, 4, 5, 3);
     const auto expected = testing::every_association(problem);
     RankedAssociations ranked(problem);
-    std::set<std::pair<int, boost::container::small_vector<int, 8>>> seen;
+    std::set<std::pair<int, std::vector<int>>> seen;
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const auto next = ranked.next();
       ASSERT_TRUE(next.has_value()) << "trial " << trial << ", rank " << i;
       // 1e-9: sums of at most six numbers of size 10, in another order.
       ASSERT_NEAR(next->log_weight, expected[i].log_weight, 1e-9) << "trial " << trial;
-      ASSERT_TRUE(seen.insert({next->parent, next->leaf_of}).second) << "given twice";
+      ASSERT_TRUE(seen.insert({next->parent, {next->leaf_of.begin(), next->leaf_of.end()}}).second) << "given twice";
     }
     ASSERT_FALSE(ranked.next().has_value()) << "trial " << trial;
   }
@@ -57,6 +59,42 @@ TEST(RankedAssociations, FirstHundredOfLargerProblemsAreTheBest) {
     RankedAssociations ranked(problem);
     for (std::size_t i = 0; i < std::min<std::size_t>(100, expected.size()); ++i)
       ASSERT_NEAR(ranked.next()->log_weight, expected[i].log_weight, 1e-9) << "trial " << trial;
+  }
+}
+
+/// What is large is taken apart by what is wanted; ranked as one it is the same.
+TEST(RankedAssociations, LargeProblemsAreRankedAsIfNotTakenApart) {
+  std::mt19937_64 random(6);
+  for (int trial = 0; trial < 40; ++trial) {
+    constexpr int kDetections = 20, kLeaves = 22;
+    AssociationProblem problem;
+    problem.detections = kDetections;
+    PairGains gains(kDetections, kLeaves);
+    std::vector<std::vector<double>> gain(kDetections, std::vector<double>(kLeaves, kLogZero));
+    for (auto& row : gain)
+      for (int pair = 0; pair < 2 + trial % 3; ++pair)
+        row[random() % kLeaves] = -3 + 10 * static_cast<double>(random() >> 11) * 0x1p-53;
+    problem.gains.resize(kLeaves);
+    problem.parents.push_back({-1.0, {}});
+    for (int z = 0; z < kDetections; ++z) {
+      gains.start_row();
+      for (int leaf = 0; leaf < kLeaves; ++leaf) {
+        if (gain[z][leaf] == kLogZero) continue;
+        gains.add(leaf, gain[z][leaf]);
+        problem.gains[leaf].push_back({z, gain[z][leaf]});
+      }
+    }
+    for (int leaf = 0; leaf < kLeaves; ++leaf) problem.parents[0].leaves.push_back(leaf);
+    RankedAssociations taken_apart(problem);
+    RankedAssignments as_one(gains, -kLogZero);
+    std::set<std::vector<int>> seen;
+    for (std::size_t i = 0; i < 300; ++i) {
+      const auto next = taken_apart.next();
+      ASSERT_EQ(next.has_value(), as_one.has(i)) << "trial " << trial << ", rank " << i;
+      if (!next) break;
+      ASSERT_NEAR(next->log_weight, as_one.gain(i) - 1, 1e-9) << trial << ' ' << i;
+      ASSERT_TRUE(seen.insert({next->leaf_of.begin(), next->leaf_of.end()}).second) << "given twice";
+    }
   }
 }
 

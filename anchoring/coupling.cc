@@ -1,0 +1,101 @@
+#include "anchoring/coupling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mht/marginals.h"
+
+namespace anchord {
+namespace {
+
+/// Which clusters and detections belong together: numbers first the clusters, then the detections.
+class Ties {
+ public:
+  explicit Ties(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::size_t a, std::size_t b) {
+    a = find(a), b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  ScratchVector<std::size_t> parent_;
+};
+
+/// That some leaf of an anchor is given a detection.
+struct Edge {
+  int cluster;
+  Pairing pairing;  // the track is an anchor, numbered through
+};
+
+/// What each anchor is worth to each detection, whichever hypothesis holds, as if anchors were
+/// independent of each other.
+void add_edges(const PredictedCluster& predicted, int cluster, int& anchors,
+               ScratchVector<Edge>& edges) {
+  const HypothesisSet& hypotheses = predicted.cluster->hypotheses;
+  for (std::size_t a = 0; a < predicted.leaves.size(); ++a, ++anchors) {
+    const auto& leaves = predicted.leaves[a];
+    const auto has_gains = [](const PredictedLeaf& leaf) { return !leaf.gains.empty(); };
+    if (std::none_of(leaves.begin(), leaves.end(), has_gains)) continue;
+    ScratchVector<double> nothing(leaves.size(), 0.0);  // P(leaf, it gives nothing)
+    double sum = 0;
+    for (const Hypothesis& h : hypotheses) {
+      const double p = std::exp(h.log_weight);
+      const int leaf = h.leaf[a];
+      if (leaf == Hypothesis::kNoLeaf) {
+        sum += p;
+      } else {
+        nothing[leaf] += p * std::exp(leaves[leaf].log_miss);
+        sum += p * std::exp(leaves[leaf].log_miss);
+      }
+    }
+    const std::size_t first = edges.size();
+    for (std::size_t l = 0; l < leaves.size(); ++l)
+      for (const auto& [z, log_gain] : leaves[l].gains) {
+        const double weight = nothing[l] / sum * std::exp(std::min(log_gain, 500.0));
+        const auto same = std::find_if(edges.begin() + first, edges.end(),
+                                       [z = z](const Edge& e) { return e.pairing.detection == z; });
+        if (same == edges.end())
+          edges.push_back({cluster, {anchors, z, weight, 0}});
+        else
+          same->pairing.weight += weight;
+      }
+  }
+}
+
+}  // namespace
+
+ScratchVector<Group> couple(ScratchVector<PredictedCluster> clusters, int detections,
+                          double negligible) {
+  const std::size_t n = clusters.size();
+  Ties ties(n + detections);
+  if (negligible <= 0) {
+    for (std::size_t c = 0; c < n; ++c)
+      for (int z = 0; z < detections; ++z)
+        if (clusters[c].gated[z]) ties.unite(c, n + z);
+  } else {
+    ScratchVector<Edge> edges;
+    int anchors = 0;
+    for (std::size_t c = 0; c < n; ++c) add_edges(clusters[c], static_cast<int>(c), anchors, edges);
+    ScratchVector<Pairing> pairings;
+    for (const Edge& e : edges) pairings.push_back(e.pairing);
+    estimate_probabilities(pairings, anchors, detections);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      if (pairings[e].probability >= negligible)
+        ties.unite(edges[e].cluster, n + pairings[e].detection);
+  }
+  ScratchVector<Group> by_root(n + detections);
+  for (std::size_t c = 0; c < n; ++c)
+    by_root[ties.find(c)].clusters.push_back(std::move(clusters[c]));
+  for (int z = 0; z < detections; ++z) by_root[ties.find(n + z)].detections.push_back(z);
+  ScratchVector<Group> groups;
+  for (Group& group : by_root)
+    if (!group.clusters.empty() || !group.detections.empty()) groups.push_back(std::move(group));
+  return groups;
+}
+
+}  // namespace anchord

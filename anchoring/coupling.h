@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "anchoring/association.h"
+
+namespace anchord {
+
+/// Clusters and detections that must be associated together.
+struct Group {
+  ScratchVector<PredictedCluster> clusters;
+  ScratchVector<int> detections;  ///< ascending
+};
+
+/// Brings together what one frame ties: a cluster and a detection that one of its leaves may be
+/// given. In a crowd gates overlap until all is one; so where several clusters are tied, a
+/// detection ties a cluster only if it comes from there with at least the probability `negligible`
+/// (estimated over all that are tied, see mht/marginals.h; 0: any). What it might have been given
+/// to otherwise is let go. Groups in order of their first cluster, then those of detections alone.
+ScratchVector<Group> couple(ScratchVector<PredictedCluster> clusters, int detections,
+                          double negligible);
+
+}  // namespace anchord

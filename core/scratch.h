@@ -1,0 +1,48 @@
+#pragma once
+
+#include <boost/container/small_vector.hpp>
+#include <cstddef>
+#include <vector>
+
+namespace anchord {
+
+/// Memory for what does not outlive the work on one frame: taken from a block of this thread by
+/// moving a pointer on, and given back all at once, all that was taken since a Scratch began, when
+/// it ends. The block stays for the next frame, so that a warm engine asks the system for none.
+///
+/// Containers of it that are older than a Scratch must not grow while it lasts, those that are
+/// younger must end before it does.
+class Scratch {
+ public:
+  Scratch();
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  /// `size` bytes, aligned for anything that new aligns.
+  static void* allocate(std::size_t size);
+  static void deallocate(void* memory);
+
+ private:
+  std::size_t block_, used_;  // where it began
+};
+
+template <typename T>
+struct ScratchAllocator {
+  using value_type = T;
+  ScratchAllocator() = default;
+  template <typename U>
+  ScratchAllocator(const ScratchAllocator<U>&) {}  // NOLINT: allocators convert
+  T* allocate(std::size_t n) { return static_cast<T*>(Scratch::allocate(n * sizeof(T))); }
+  void deallocate(T* memory, std::size_t) { Scratch::deallocate(memory); }
+  bool operator==(const ScratchAllocator&) const { return true; }
+};
+
+template <typename T>
+using ScratchVector = std::vector<T, ScratchAllocator<T>>;
+
+/// With room for N elements of its own.
+template <typename T, std::size_t N>
+using SmallScratchVector = boost::container::small_vector<T, N, ScratchAllocator<T>>;
+
+}  // namespace anchord
