@@ -111,18 +111,21 @@ class Judge {
   }
 
   void match(const Frame& frame, const std::vector<TruthRow>& rows, JudgedFrame& out) const {
-    const int n = static_cast<int>(out.detections.size()), m = static_cast<int>(rows.size());
-    std::vector<double> costs;
+    const Scratch scratch;
+    const int m = static_cast<int>(rows.size());
+    PairGains gains(static_cast<int>(out.detections.size()), m);
     for (const Judged& z : out.detections) {
-      for (const TruthRow& row : rows) costs.push_back(cost(z.placed, row));
-      costs.push_back(1.5 * radius_);
+      gains.start_row();
+      for (int i = 0; i < m; ++i) {
+        const double distance = cost(z.placed, rows[static_cast<std::size_t>(i)]);
+        if (distance <= 1.5 * radius_) gains.add(i, 1.5 * radius_ - distance);
+      }
     }
-    Assignment assignment(n, m);
-    assignment.solve(costs);
-    for (int z = 0; z < n; ++z) {
+    const Assignment assignment(gains);
+    for (int z = 0; z < assignment.detections(); ++z) {
       Judged& judged = out.detections[static_cast<std::size_t>(z)];
+      const bool given = assignment.choice(z) != Assignment::kNone;
       const auto row = static_cast<std::size_t>(assignment.choice(z));
-      const bool given = assignment.choice(z) < m;
       if (given && scored_[row] >= 0) {
         Sight& sight = out.sights[static_cast<std::size_t>(scored_[row])];
         sight.found = true;
@@ -136,8 +139,8 @@ class Judge {
         continue;
       }
       bool neutral = given;
-      for (std::size_t i = 0; i < rows.size() && !neutral; ++i)
-        neutral = scored_[i] < 0 && costs[static_cast<std::size_t>(z * (m + 1)) + i] <= 2 * radius_;
+      for (const PairGains::Entry& near : gains.of(z))
+        neutral = neutral || scored_[static_cast<std::size_t>(near.leaf)] < 0;
       judged.verdict = neutral ? Verdict::kNeutral : Verdict::kFalse;
     }
   }
