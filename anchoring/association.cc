@@ -172,7 +172,7 @@ bool PredictedCluster::departed(double min_existence) const {
 std::vector<std::shared_ptr<const Cluster>> associate(
     const ScratchVector<PredictedCluster>& clusters, const ScratchVector<int>& detections,
     const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
-    const Background& background, const Belief& belief) {
+    const Background& background, const Belief& belief, double& log_evidence) {
   const Limits& limits = background.knowledge.limits;
   const Tied tied = tie(clusters, limits);
   const AssociationProblem problem = problem_of(tied, detections);
@@ -231,7 +231,13 @@ std::vector<std::shared_ptr<const Cluster>> associate(
       break;
     }
   }
-  if (least != kLogZero) restore(parent_of, ranked.log_evidence(), joint.hypotheses);
+  if (least != kLogZero) {
+    const auto evidence = ranked.log_evidence();
+    total = log_sum(evidence, [](double of_parent) { return of_parent; });
+    restore(parent_of, evidence, joint.hypotheses);
+  }
+  log_evidence += total;
+  for (const int z : detections) log_evidence += origins[z].log_weight;
   merge_equal(joint.hypotheses);
   if (limits.scan_depth > 0) {
     merge_alike(joint, background);

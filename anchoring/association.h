@@ -57,9 +57,10 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
                          const Occlusion& occlusion, Nearby& nearby, const Background& background);
 /// Associates `detections` (indices into the frame, ascending) with the clusters that they tie
 /// together: the clusters after the frame. Without clusters each detection starts one of its own.
+/// Adds the ln of the sum of all associations' weights to `log_evidence`.
 std::vector<std::shared_ptr<const Cluster>> associate(
     const ScratchVector<PredictedCluster>& clusters, const ScratchVector<int>& detections,
     const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
-    const Background& background, const Belief& belief);
+    const Background& background, const Belief& belief, double& log_evidence);
 
 }  // namespace anchord

@@ -63,18 +63,13 @@ Background::Dynamics dynamics_of(const ObjectClass& c) {
   return d;
 }
 
-/// Volume of a cell's column, m^dims.
-double cell_volume(const Grid& grid, int dims) {
-  return grid.cell * grid.cell * (dims == 3 ? grid.z_max - grid.z_min : 1.0);
-}
-
 /// The arrivals that are concentrated somewhere, spread over the cells; empty if there are none.
 std::vector<double> concentrated(const ObjectClass& c, const Background& b) {
   if (std::all_of(c.arrivals.begin(), c.arrivals.end(),
                   [](const Arrival& a) { return a.motion.has_value(); }))
     return {};
   std::vector<double> rate(b.grid.size(), c.arrival_rate);
-  const double volume = cell_volume(b.grid, b.dims);
+  const double volume = b.cell_volume();
   for (const Arrival& a : c.arrivals) {
     if (a.motion) continue;  // theirs is an intensity that moves
     const auto* place = a.place >= 0 ? b.footprint(a.place).get() : nullptr;

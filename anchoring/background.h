@@ -67,6 +67,10 @@ struct Background {
       if (point[i] < knowledge.bounds_min[i] || point[i] > knowledge.bounds_max[i]) return -1;
     return grid.index(point);
   }
+  /// Of a cell's column, m^dims.
+  double cell_volume() const {
+    return grid.cell * grid.cell * (dims == 3 ? grid.z_max - grid.z_min : 1.0);
+  }
   const ObjectClass& object_class(int c) const { return knowledge.classes[c]; }
   int classes() const { return static_cast<int>(knowledge.classes.size()); }
 

@@ -76,6 +76,16 @@ struct Belief {
   std::uint64_t births = 0;
   std::vector<std::uint64_t> names;  ///< given so far, per class
   std::vector<SetAside> set_aside;   ///< by the newest events that can be undone
+  /// ln of the probability density of all frames so far, the evidence for the configuration: what
+  /// divides every sum of weights. A frame adds, for each cluster that it makes, the ln of the sum
+  /// of its hypotheses' weights before they are normalised (kappa(z) + e(z) of each detection that
+  /// is new or clutter, r g of one that a leaf gives, 1 - r q of a leaf that gives none), less the
+  /// number of detections that were expected of clutter and of undetected objects:
+  /// kappa times the volume in view, and the sum over classes of p_D,c times the integral of
+  /// lambda_c over it. Scores are taken as given: of detections that have one, kappa is the density
+  /// at p = 0.5, not that of all clutter. What pruning drops is missing from the sums. Events say
+  /// what is so; they add nothing.
+  double log_evidence = 0;
 
   /// Seconds since the start, as the undetected intensities count them.
   double seconds(Utime at) const { return seconds_between(start, at); }

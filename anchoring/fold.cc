@@ -135,21 +135,26 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
 
   belief.clusters = std::move(untouched);
   const std::size_t first_touched = belief.clusters.size();
+  double log_evidence = -frame.sensor->clutter_density * visibility.volume();
   for (const Group& group : groups) {
-    for (auto& cluster :
-         associate(group.clusters, group.detections, frame, from, visibility, background, belief))
+    for (auto& cluster : associate(group.clusters, group.detections, frame, from, visibility,
+                                   background, belief, log_evidence))
       belief.clusters.push_back(std::move(cluster));
   }
   belief.births += detections;
   name_anchors(belief, first_touched, background);
   const double time = belief.seconds(frame.utime);
-  for (int c = 0; c < background.classes(); ++c)
-    belief.undetected[c].miss(visibility.look(), frame.sensor->detection_probability[c], time);
-  if (frame.view.sees_nothing()) return;
-  for (std::size_t c = 0; c < belief.moving.size(); ++c) {
-    belief.moving[c].advance(time);
-    belief.moving[c].miss(frame.view, frame.sensor->detection_probability[c]);
+  for (int c = 0; c < background.classes(); ++c) {
+    const double p = frame.sensor->detection_probability[c];
+    log_evidence -=
+        p * background.cell_volume() * belief.undetected[c].miss(visibility.look(), p, time);
   }
+  for (std::size_t c = 0; c < belief.moving.size() && !frame.view.sees_nothing(); ++c) {
+    const double p = frame.sensor->detection_probability[c];
+    belief.moving[c].advance(time);
+    log_evidence -= p * belief.moving[c].miss(frame.view, p);
+  }
+  belief.log_evidence += log_evidence;
 }
 
 }  // namespace anchord

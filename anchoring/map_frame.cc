@@ -131,7 +131,8 @@ Result<MapDetection> place_detection(const Detection& from, const Frame& frame,
     if (!(*from.score >= 0 && *from.score <= 1))
       return invalid(at + ".score", "must be a probability, 0 to 1");
     const double p = std::clamp(*from.score, kLeastScore, 1 - kLeastScore);
-    to.log_clutter += std::log1p(-p) - std::log(p);
+    const auto [a, b] = sensor.score_calibration;
+    to.log_clutter -= a + b * (std::log(p) - std::log1p(-p));
   }
   if (from.yaw) {
     if (!std::isfinite(*from.yaw)) return invalid(at + ".yaw", "must be finite");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/standard_normal.h"
 
@@ -52,6 +53,13 @@ Look look_at(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
   return look;
 }
 
+double sum(const Look& look) {
+  double shares = 0;
+  for (const Look::Tile& tile : look.tiles)
+    shares = std::accumulate(tile.share.begin(), tile.share.end(), shares);
+  return shares;
+}
+
 }  // namespace
 
 Visibility::Visibility(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
@@ -59,7 +67,8 @@ Visibility::Visibility(const MapView& view, const std::optional<Eigen::Vector3d>
     : view_(view),
       eye_(background.walls.none() ? std::nullopt : eye),
       background_(&background),
-      look_(look_at(view, eye_, background)) {}
+      look_(look_at(view, eye_, background)),
+      volume_(sum(look_) * background.cell_volume()) {}
 
 bool Visibility::same_for(const MapFrame& frame) const {
   return view_ == frame.view && (background_->walls.none() || eye_ == frame.eye);

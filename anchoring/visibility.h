@@ -32,6 +32,9 @@ class Visibility {
   /// Per cell of the world's grid the share in view, likewise.
   const Look& look() const { return look_; }
 
+  /// How much of the world is in view, m^dims.
+  double volume() const { return volume_; }
+
  private:
   /// The share of the part in view of a density that no wall hides.
   double clear_of_walls(const Gaussian& density) const;
@@ -40,6 +43,7 @@ class Visibility {
   std::optional<Eigen::Vector3d> eye_;  ///< none where there are no walls
   const Background* background_;
   Look look_;
+  double volume_;
   mutable std::map<const Footprint*, std::vector<double>> footprints_;  // filled when asked for
 };
 

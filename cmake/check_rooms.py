@@ -30,7 +30,7 @@ LIBRARIES = [
     (
         r"nlohmann/.*",
         ["api/", "knowledge/configuration", "knowledge/json_reader", "perception/camera_file"]
-        + ["tools/anchorctl"],
+        + ["tools/anchorctl", "tools/anchor_tune"],
     ),
     (r"lcm/.*|anchord/\w+_t\.hpp", ["lcmtypes/", "api/", "tools/", "clients/"]),
     (r"opencv2/.*", ["perception/", "tools/"]),

@@ -69,7 +69,8 @@ class [[nodiscard]] Configuration {
 ///   `place` the world, `rate` 0.001, `detectable` true, `initial_weight` 0 (1 for the first
 ///   tracked model where no model has one). Weights are normalised; somewhere models have none.
 /// - a sensor: each key by itself from `sensors.default`, then `clutter_density` 1e-3 per m^d, no
-///   `view` and no `noise`, `pose_floor` 0, `identity_doubt` 0.01. Its `detection_probability` (a
+///   `view` and no `noise`, `score_calibration` [0, 1] (scores count as logit p' = a + b logit p),
+///   `pose_floor` 0, `identity_doubt` 0.01. Its `detection_probability` (a
 ///   number, or an object of them by class, in which "default" stands for those not named) goes
 ///   before that of `sensors.default`, and that before the class's own.
 ///   `noise` is a position covariance (row-major, sensor frame), or an object with `covariance`,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -117,6 +118,8 @@ struct Sensor {
   /// Per attribute: C[true][reported], rows sum to 1; empty where there is none. It goes before
   /// the prior.
   std::vector<std::vector<std::vector<double>>> confusion;
+  /// Of the scores: logit p' = [0] + [1] logit p is what counts, [1] > 0.
+  std::array<double, 2> score_calibration{0, 1};
   double pose_floor = 0;  ///< m^2
   double identity_doubt = 0.01;
   std::optional<Verification> verification;  ///< none: not used for tasks

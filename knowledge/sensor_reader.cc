@@ -110,15 +110,28 @@ void read_confusion(const JsonValue& value, const Knowledge& knowledge, Sensor& 
                      });
 }
 
+void read_score_calibration(const JsonValue& value, Sensor& sensor) {
+  const auto numbers = value.numbers(2);
+  if (!numbers) return;
+  if ((*numbers)[1] > 0)
+    sensor.score_calibration = {(*numbers)[0], (*numbers)[1]};
+  else
+    value.mistake("must be [a, b] with b above 0: logit p' = a + b logit p");
+}
+
 /// A sensor: what `value` says, and else as `draft` is.
 Draft read_sensor(const JsonValue& value, Draft draft, const Knowledge& knowledge) {
   if (!value.object_of({"clutter_density", "detection_probability", "view", "noise", "prior",
-                        "confusion", "pose_floor", "identity_doubt", "verification"})) {
+                        "confusion", "score_calibration", "pose_floor", "identity_doubt",
+                        "verification"})) {
     return draft;
   }
   Sensor& sensor = draft.sensor;
   value.read("clutter_density", sensor.clutter_density, kPositive);
   value.read("pose_floor", sensor.pose_floor, kNotNegative);
+  if (const auto calibration = value.find("score_calibration")) {
+    read_score_calibration(*calibration, sensor);
+  }
   value.read("identity_doubt", sensor.identity_doubt, kAboveImpossible);
   if (const auto p = value.find("detection_probability")) {
     read_detection_probability(*p, knowledge, draft);

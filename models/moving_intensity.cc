@@ -150,12 +150,18 @@ void MovingIntensity::advance(double time) {
   mixtures_ = std::move(next);
 }
 
-void MovingIntensity::miss(const MapView& view, double p) {
-  if (p <= 0 || mixtures_->empty() || view.sees_nothing()) return;
+double MovingIntensity::miss(const MapView& view, double p) {
+  if (p <= 0 || mixtures_->empty() || view.sees_nothing()) return 0;
+  double seen = 0;
   auto next = std::make_shared<std::vector<Mixture>>(*mixtures_);
   for (Mixture& mixture : *next)
-    for (Component& c : mixture) c.weight *= 1 - p * view.mass(c.density.position_density());
+    for (Component& c : mixture) {
+      const double in_view = view.mass(c.density.position_density());
+      seen += c.weight * in_view;
+      c.weight *= 1 - p * in_view;
+    }
   mixtures_ = std::move(next);
+  return seen;
 }
 
 double MovingIntensity::intensity(const Gaussian& z) const {

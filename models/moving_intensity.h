@@ -46,8 +46,8 @@ class MovingIntensity {
   void advance(double time);
 
   /// A sensor that detects what is in view with probability p saw nothing new: each component keeps
-  /// 1 - p v of its weight, v its mass in view.
-  void miss(const MapView& view, double p);
+  /// 1 - p v of its weight, v its mass in view. Returns the sum of v times weight before.
+  double miss(const MapView& view, double p);
 
   /// How densely such objects would be measured at z: sum of w N(z; H m, H P H' + R), per m^dims.
   double intensity(const Gaussian& z) const;

@@ -37,8 +37,9 @@ double UndetectedIntensity::at(int cell, double time) const {
          arrival_rate(cell) * arrived(mu, dt);
 }
 
-void UndetectedIntensity::miss(const Look& look, double p, double time) {
-  if (p <= 0) return;
+double UndetectedIntensity::miss(const Look& look, double p, double time) {
+  if (p <= 0) return 0;
+  double seen_intensity = 0;
   const Grid& grid = tiling_->grid;
   const double mu = model_->departure_rate;
   for (const Look::Tile& seen : look.tiles) {
@@ -54,10 +55,13 @@ void UndetectedIntensity::miss(const Look& look, double p, double time) {
       for (int x = 0; x < Tiling::kEdge && x0 + x < grid.columns; ++x) {
         const int i = y * Tiling::kEdge + x, cell = (y0 + y) * grid.columns + x0 + x;
         const double before = old ? old->intensity[i] : model_->start;
-        next->intensity[i] = (before * stay + arrival_rate(cell) * rise) * (1 - p * seen.share[i]);
+        const double now = before * stay + arrival_rate(cell) * rise;
+        seen_intensity += now * seen.share[i];
+        next->intensity[i] = now * (1 - p * seen.share[i]);
       }
     tiles_[seen.tile] = std::move(next);
   }
+  return seen_intensity;
 }
 
 }  // namespace anchord

@@ -51,8 +51,9 @@ class UndetectedIntensity {
   double at(int cell, double time) const;
 
   /// A sensor that detects with probability p looked and saw nothing new:
-  /// lambda <- (1 - p share) lambda.
-  void miss(const Look& look, double p, double time);
+  /// lambda <- (1 - p share) lambda. Returns the sum over the cells of share lambda as it was
+  /// before, per m^dims: times p and a cell's volume, how many detections were expected.
+  double miss(const Look& look, double p, double time);
 
  private:
   struct Tile {

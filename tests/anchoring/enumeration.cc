@@ -43,12 +43,16 @@ class Undetected {
     }
   }
 
-  void look(const Sensor& sensor, const Sight& sight) {
+  /// Returns how many detections of clutter and of undetected objects were to be expected.
+  double look(const Sensor& sensor, const Sight& sight) {
     const Eigen::VectorXd p = detection_probabilities(knowledge_, sensor);
+    double expected = 0;
     for (int i = 0; i < cells_.count(); ++i) {
       if (!sight.contains(cells_.centre(i))) continue;
+      expected += (sensor.clutter_density + p.dot(lambda_.col(i))) * cells_.volume();
       for (int c = 0; c < lambda_.rows(); ++c) lambda_(c, i) *= 1 - p(c);
     }
+    return expected;
   }
 
   /// Each class's term of e(z).
@@ -112,7 +116,7 @@ class Enumeration {
         step.terms.push_back(undetected.terms(*step.sensor, step.detections.back()));
         step.named.push_back(parse_reference(detection.object));
       }
-      undetected.look(*step.sensor, step.sight);
+      belief_.expected_detections += undetected.look(*step.sensor, step.sight);
       steps_.push_back(std::move(step));
     }
     prepare(undetected);

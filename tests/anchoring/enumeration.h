@@ -58,6 +58,8 @@ struct Origin {
 struct EnumeratedBelief {
   std::size_t worlds = 0;
   double evidence = 0;  ///< the sum of the worlds' weights before they were normalised
+  /// Detections of clutter and of undetected objects that all frames together led to expect.
+  double expected_detections = 0;
   std::map<ObjectKey, EnumeratedObject> objects;  ///< one for every detection
   std::vector<std::vector<Origin>> origins;       ///< [frame][detection]
   std::vector<double> undetected;                 ///< expected number within the bounds, per class

@@ -116,6 +116,10 @@ void expect_equal(const World& world, const EnumeratedBelief& expected,
                 expected.undetected[c], kTolerance)
         << "undetected objects of class " << c;
   }
+  // A sum of logarithms of some size: relative to it.
+  const double log_evidence = std::log(expected.evidence) - expected.expected_detections;
+  ASSERT_NEAR(world.belief()->log_evidence, log_evidence,
+              kTolerance * (1 + std::abs(log_evidence)));
 }
 
 std::vector<std::size_t> in_order(const Scene& scene) {

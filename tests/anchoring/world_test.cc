@@ -51,6 +51,17 @@ TEST(World, TheScoreIsTheOddsOfClutter) {
   }
 }
 
+TEST(World, ScoresCountAsTheSensorsCalibrationHasThem) {
+  Knowledge knowledge = exact();
+  knowledge.default_sensor.score_calibration = {-0.5, 0.8};
+  World world(knowledge);
+  Detection z = at(1, 1);
+  z.score = 0.8;  // odds against: 1/4
+  apply(world, {frame(0, {z})});
+  const double odds = std::exp(0.5 - 0.8 * std::log(4));
+  EXPECT_NEAR(objects(world)[0].p, first_existence(kClutter * odds), kRounding);
+}
+
 TEST(World, MissesLowerExistence) {
   World world(exact());
   apply(world, {frame(0, {at(1, 1)})});

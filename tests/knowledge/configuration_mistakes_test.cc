@@ -236,6 +236,8 @@ INSTANTIATE_TEST_SUITE_P(
              "of at least 0"},
         Case{R"("sensors": {"": {}})", "sensors[\"\"]", "a name has 1 to 100 bytes"},
         Case{R"("sensors": {"a": {"identity_doubt": 0}})", "sensors.a.identity_doubt", "(0, 1]"},
+        Case{R"("sensors": {"a": {"score_calibration": [0.1, 0]}})", "sensors.a.score_calibration",
+             "b above 0"},
         Case{R"("sensors": {"a": {"detection_probability": 1}})", "sensors.a.detection_probability",
              "[0, 1)"},
         Case{R"("sensors": {"a": {"detection_probability": [1]}})",

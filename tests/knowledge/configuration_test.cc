@@ -218,7 +218,8 @@ TEST(Configuration, SensorsTakeWhatIsMissingFromDefault) {
   const Knowledge knowledge = with(R"("sensors": {
     "default": {"clutter_density": 0.5, "noise": {"polar": [1, 2, 3]}, "pose_floor": 0.1,
                 "view": {"type": "sector", "range": [0, 5], "bearing": [-1, 1]}},
-    "a": {"noise": [1, 0, 0, 0, 2, 0, 0, 0, 3], "identity_doubt": 0.1},
+    "a": {"noise": [1, 0, 0, 0, 2, 0, 0, 0, 3], "identity_doubt": 0.1,
+          "score_calibration": [-0.5, 0.8]},
     "b": {"view": {"type": "frustum", "range": [0.5, 4], "hfov": 1, "vfov": 0.7}},
     "c": {"view": {"type": "polygon", "points": [[0, 0], [1, 0], [1, 1]]}}})");
   const Sensor &a = knowledge.sensor("a"), &b = knowledge.sensor("b"), &c = knowledge.sensor("c");
@@ -228,6 +229,8 @@ TEST(Configuration, SensorsTakeWhatIsMissingFromDefault) {
   EXPECT_EQ(a.polar_noise, (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(a.identity_doubt, 0.1);
   EXPECT_EQ(b.identity_doubt, 0.01);
+  EXPECT_EQ(a.score_calibration, (std::array<double, 2>{-0.5, 0.8}));
+  EXPECT_EQ(b.score_calibration, (std::array<double, 2>{0, 1}));
   ASSERT_TRUE(a.view && b.view && c.view);
   EXPECT_EQ(a.view->type, View::Type::kSector);
   EXPECT_EQ(a.view->bearing, (std::array<double, 2>{-1, 1}));

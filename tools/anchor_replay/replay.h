@@ -6,7 +6,7 @@
 
 #include "anchoring/world.h"
 #include "api/world_line.h"
-#include "tools/anchor_replay/frame_source.h"
+#include "tools/frame_source.h"
 
 namespace anchord {
 

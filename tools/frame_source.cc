@@ -1,4 +1,4 @@
-#include "tools/anchor_replay/frame_source.h"
+#include "tools/frame_source.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,0 +1,139 @@
+#include "tests/anchor_tune/street.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "tests/anchoring/dice.h"
+#include "tests/anchoring/small_world.h"
+
+namespace anchord::tuning {
+namespace {
+
+using enumeration::Dice;
+
+struct Walker {
+  int id;
+  Eigen::Vector2d position, velocity;
+  bool hidden;
+};
+
+/// Knuth's product of uniform numbers; for means of some ten.
+int poisson(double mean, Dice& dice) {
+  int n = 0;
+  for (double product = dice.uniform(0, 1); product > std::exp(-mean);
+       product *= dice.uniform(0, 1))
+    ++n;
+  return n;
+}
+
+class Simulation {
+ public:
+  Simulation(const Street& street, Dice& dice) : s_(street), dice_(dice) {
+    come(s_.undetected_intensity * area());
+  }
+
+  void step() {
+    const double dt = s_.seconds_per_frame;
+    std::erase_if(walkers_, [&](const Walker&) {
+      return dice_.chance(-std::expm1(-s_.departure_rate * dt));
+    });
+    for (Walker& w : walkers_) {
+      for (int axis = 0; axis < 2; ++axis) {
+        // Position and velocity together have the covariance of white acceleration.
+        const double push = dice_.normal() * std::sqrt(s_.psd * dt);
+        w.position[axis] += w.velocity[axis] * dt + push * dt / 2 +
+                            dice_.normal() * std::sqrt(s_.psd * dt * dt * dt / 12);
+        w.velocity[axis] += push;
+      }
+      const double both = s_.hide + s_.show;
+      const double changes = both > 0 ? -std::expm1(-both * dt) / both : 0;
+      if (dice_.chance((w.hidden ? s_.show : s_.hide) * changes)) w.hidden = !w.hidden;
+    }
+    come(s_.arrival_rate * area() * dt);
+  }
+
+  Frame look(double seconds) {
+    Frame f = frame(seconds, {}, "camera");
+    f.view.emplace().type = View::Type::kWorld;
+    const double deviation = std::sqrt(s_.variance);
+    for (const Walker& w : walkers_)
+      if (!w.hidden && dice_.chance(s_.detection_probability))
+        f.detections.push_back(at(w.position.x() + deviation * dice_.normal(),
+                                  w.position.y() + deviation * dice_.normal(), s_.variance));
+    for (int n = poisson(s_.clutter_density * area(), dice_); n > 0; --n)
+      f.detections.push_back(at(dice_.uniform(0, s_.side), dice_.uniform(0, s_.side), s_.variance));
+    return f;
+  }
+
+  std::vector<TruthRow> rows() const {
+    std::vector<TruthRow> rows;
+    for (const Walker& w : walkers_)
+      rows.push_back({std::to_string(w.id), {w.position.x(), w.position.y(), 0}, "", false});
+    return rows;
+  }
+
+ private:
+  double area() const { return s_.side * s_.side; }
+
+  void come(double expected) {
+    const double hidden = s_.hide > 0 ? s_.hide / (s_.hide + s_.show) : 0;
+    const double speed = std::sqrt(s_.velocity_variance);
+    for (int n = poisson(expected, dice_); n > 0; --n)
+      walkers_.push_back({ids_++,
+                          {dice_.uniform(0, s_.side), dice_.uniform(0, s_.side)},
+                          {speed * dice_.normal(), speed * dice_.normal()},
+                          dice_.chance(hidden)});
+  }
+
+  const Street& s_;
+  Dice& dice_;
+  std::vector<Walker> walkers_;
+  int ids_ = 0;
+};
+
+}  // namespace
+
+Recording simulate(const Street& street, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  Dice dice(random);
+  Simulation simulation(street, dice);
+  Recording out;
+  out.truth.emplace();
+  for (int k = 0; k < street.frames; ++k) {
+    if (k > 0) simulation.step();
+    out.frames.push_back(simulation.look(k * street.seconds_per_frame));
+    (*out.truth)[out.frames.back().utime] = simulation.rows();
+  }
+  return out;
+}
+
+std::string configuration_of(const Street& s) {
+  using nlohmann::json;
+  json model{{"kind", "constant_velocity"},
+             {"acceleration_psd", s.psd},
+             {"initial_velocity_variance", s.velocity_variance},
+             {"initial_weight", 1}};
+  json object{{"models", {model}},
+              {"detection_probability", s.detection_probability},
+              {"arrival_rate", s.arrival_rate},
+              {"departure_rate", s.departure_rate},
+              {"undetected_intensity", s.undetected_intensity}};
+  if (s.hide > 0) {
+    model["detectable"] = false;
+    model["initial_weight"] = 0;
+    object["models"].push_back(model);
+    object["transitions"] = {{{"from", 0}, {"to", 1}, {"rate", s.hide}},
+                             {{"from", 1}, {"to", 0}, {"rate", s.show}}};
+  }
+  return json{
+      {"world",
+       {{"dimensions", 2}, {"bounds", {{"min", {0, 0}}, {"max", {s.side, s.side}}}}, {"cell", 1}}},
+      {"classes", {{"default", object}}},
+      {"sensors", {{"default", {{"clutter_density", s.clutter_density}}}}}}
+      .dump();
+}
+
+Knowledge knowledge_of(const Street& street) { return knowledge_from(configuration_of(street)); }
+
+}  // namespace anchord::tuning

@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <map>
+
+#include "tools/anchor_tune/births.h"
+#include "tools/anchor_tune/chain.h"
+#include "tools/anchor_tune/from_truth.h"
+#include "tools/anchor_tune/knowledge_parts.h"
+#include "tools/anchor_tune/motion.h"
+
+namespace anchord::tuning {
+namespace {
+
+using nlohmann::json;
+
+Glances glances_of(const Judgement& judgement, int object_class) {
+  std::map<std::pair<int, std::string>, std::pair<Utime, std::vector<Glance>>> objects;
+  for (const JudgedFrame& frame : judgement.frames)
+    for (const Sight& sight : frame.sights) {
+      if (sight.object_class != object_class) continue;
+      auto& [last, looks] =
+          objects.try_emplace({frame.recording, sight.object}, frame.utime, std::vector<Glance>())
+              .first->second;
+      looks.push_back({seconds_between(last, frame.utime), frame.sensor, sight.found});
+      last = frame.utime;
+    }
+  Glances glances;
+  for (auto& [key, object] : objects) glances.push_back(std::move(object.second));
+  return glances;
+}
+
+/// The only tracked model that is detectable, or -1 if there are several.
+int single_model(const ObjectClass& c) {
+  int only = -1;
+  for (std::size_t m = 0; m < c.models.size(); ++m) {
+    if (!c.models[m].tracked() || !c.models[m].detectable) continue;
+    if (only >= 0) return -1;
+    only = static_cast<int>(m);
+  }
+  return only;
+}
+
+std::string looks_text(const Glances& glances) {
+  std::size_t looks = 0;
+  for (const auto& object : glances) looks += object.size();
+  return std::to_string(looks) + " looks at " + std::to_string(glances.size()) + " objects";
+}
+
+void add_models(const Judgement& judgement, int object_class, const Knowledge& knowledge,
+                const TruthOptions& options, const Detectability& seen, const Glances& glances,
+                Findings& out) {
+  const ObjectClass& c = knowledge.classes[static_cast<std::size_t>(object_class)];
+  const JsonPath at = JsonPath("/classes") / c.name;
+  const int only = single_model(c);
+  if (only < 0) {
+    out.push_back({JsonPath(), nullptr,
+                   dotted(at) + ": has several tracked models: they are as they "
+                                "were, and it is not told when it hides"});
+    return;
+  }
+  BehaviourModel moving = c.models[static_cast<std::size_t>(only)];
+  moving.initial_weight = 1;
+  const auto motion = fit_motion(tracks_of(judgement, object_class), moving,
+                                 knowledge.limits.gate_probability, options.radius, knowledge.dims);
+  if (motion) {
+    moving.psd = moving.psd.with_plane(motion->psd.value);
+    moving.initial_velocity_variance =
+        moving.initial_velocity_variance.with_plane(motion->initial_velocity_variance.value);
+  }
+  std::vector<BehaviourModel> models{moving};
+  if (seen.hidden) {
+    models.push_back(moving);
+    models[1].detectable = false;
+    models[1].initial_weight = 0;
+  }
+  for (const BehaviourModel& m : c.models)
+    if (!m.tracked()) models.push_back(m);
+  out.push_back({at / "models", models_json(models, knowledge), ""});
+  const JsonPath first = at / "models" / std::size_t{0};
+  if (motion) {
+    const bool velocity = moving.kind == BehaviourModel::Kind::kConstantVelocity;
+    out.push_back(estimated(first / (velocity ? "acceleration_psd" : "position_psd"), motion->psd,
+                            "Maximum likelihood of " + std::to_string(motion->detections) +
+                                " detections on " + std::to_string(motion->tracks) +
+                                " tracks with " + std::to_string(motion->gaps) + " gaps, " +
+                                std::to_string(motion->strays) + " gross errors left out"));
+    if (velocity)
+      out.push_back(estimated(first / "initial_velocity_variance",
+                              motion->initial_velocity_variance, "From the same"));
+  } else {
+    out.push_back(
+        {JsonPath(), nullptr, dotted(at) + ": no object was found twice; its motion is as it was"});
+  }
+  if (!seen.hidden) {
+    out.push_back({at / "transitions", json::array(),
+                   "Misses do not come together: a hidden state gains " +
+                       rounded(std::max(0.0, seen.gain)) +
+                       " in log-likelihood, less than its two rates cost."});
+    return;
+  }
+  out.push_back({at / "models" / std::size_t{1} / "detectable", false,
+                 "Misses come together: a hidden state of the same motion gains " +
+                     rounded(seen.gain) + " in log-likelihood over " + looks_text(glances) + "."});
+  out.push_back({at / "transitions",
+                 {{{"from", 0}, {"to", 1}}, {{"from", 1}, {"to", 0}}},
+                 "A hidden Markov model of found and missed."});
+  const JsonPath transitions = at / "transitions";
+  out.push_back(estimated(transitions / std::size_t{0} / "rate", seen.hide, "It hides, per s"));
+  out.push_back(
+      estimated(transitions / std::size_t{1} / "rate", seen.show, "It shows itself, per s"));
+}
+
+void add_detection(const Judgement& judgement, int object_class, const Knowledge& knowledge,
+                   const Detectability& seen, const Glances& glances, Findings& out) {
+  const std::string& name = knowledge.classes[static_cast<std::size_t>(object_class)].name;
+  std::vector<int> looks(judgement.sensors.size(), 0);
+  for (const auto& object : glances)
+    for (const Glance& look : object) ++looks[static_cast<std::size_t>(look.sensor)];
+  const auto most = std::max_element(looks.begin(), looks.end()) - looks.begin();
+  for (std::size_t s = 0; s < judgement.sensors.size(); ++s) {
+    if (looks[s] == 0) continue;
+    Estimate p = seen.detection_probability[s];
+    // Never certain: as if one half more had been missed.
+    p.value = std::min(p.value, (looks[s] + 0.5) / (looks[s] + 1));
+    const std::string how = std::to_string(looks[s]) + " looks of " + judgement.sensors[s] +
+                            (seen.hidden ? ", while it is not hidden" : "");
+    if (static_cast<std::ptrdiff_t>(s) == most)
+      out.push_back(estimated(JsonPath("/classes") / name / "detection_probability", p, how));
+    const auto& now = knowledge.sensor(judgement.sensors[s]).detection_probability;
+    const bool own =
+        now[static_cast<std::size_t>(object_class)] !=
+        knowledge.classes[static_cast<std::size_t>(object_class)].detection_probability;
+    if (own || judgement.sensors.size() > 1)
+      out.push_back(estimated(
+          JsonPath("/sensors") / judgement.sensors[s] / "detection_probability" / name, p, how));
+  }
+}
+
+void add_turnover(const Judgement& judgement, int object_class, const Knowledge& knowledge,
+                  const TruthOptions& options, Findings& out) {
+  const JsonPath at =
+      JsonPath("/classes") / knowledge.classes[static_cast<std::size_t>(object_class)].name;
+  const std::string unit = knowledge.dims == 2 ? "m^2" : "m^3";
+  const Turnover t = turnover_of(judgement, object_class);
+  const auto rate = [](std::int64_t count, double exposure) {
+    Estimate e = poisson_rate(count, exposure);
+    if (count == 0) e.value = 0.5 / exposure;  // none yet is not never
+    return e;
+  };
+  if (t.new_volume > 0) {
+    out.push_back(estimated(at / "undetected_intensity", rate(t.there, t.new_volume),
+                            "Per " + unit + ": " + std::to_string(t.there) +
+                                " objects were met on " + rounded(t.new_volume) + " " + unit +
+                                " that came into view for the first time"));
+  }
+  if (t.object_seconds > 0) {
+    out.push_back(estimated(at / "departure_rate", rate(t.ends, t.object_seconds),
+                            "Per s: " + std::to_string(t.ends) +
+                                " objects were gone before their recording ended, after " +
+                                rounded(t.object_seconds) + " s of being there altogether",
+                            " Whoever leaves the view for good is among them."));
+  }
+  if (!(t.exposure > 0)) {
+    out.push_back({JsonPath(), nullptr,
+                   dotted(at) + ": nowhere was looked twice; arrivals are as they were"});
+    return;
+  }
+  std::vector<Gate> gates;
+  if (options.gates > 0 && !t.arrivals.empty())
+    gates = fit_gates(t.arrivals, t.exposure / t.seconds, options.gates, knowledge.cell,
+                      knowledge.dims);
+  double elsewhere = static_cast<double>(t.arrivals.size());
+  json places = json::array();
+  for (const Gate& gate : gates) {
+    const double count = gate.share * static_cast<double>(t.arrivals.size());
+    elsewhere -= count;
+    json mean = json::array(), covariance = json::array();
+    for (int i = 0; i < knowledge.dims; ++i) {
+      mean.push_back(number(gate.mean[i]));
+      for (int j = 0; j < knowledge.dims; ++j) covariance.push_back(number(gate.covariance(i, j)));
+    }
+    places.push_back(
+        {{"mean", mean}, {"covariance", covariance}, {"rate", number(count / t.seconds)}});
+  }
+  const std::string came = std::to_string(t.arrivals.size()) + " objects came in " +
+                           rounded(t.seconds) + " s where it had been looked before";
+  const auto rest = static_cast<int>(std::max(0.0, elsewhere) + 0.5);
+  out.push_back({at / "arrivals", places,
+                 gates.empty() ? ""
+                               : "Where objects come in: " + came + ", " +
+                                     std::to_string(static_cast<int>(t.arrivals.size()) - rest) +
+                                     " of them at one of these."});
+  out.push_back(
+      estimated(at / "arrival_rate", rate(rest, t.exposure),
+                "Per " + unit + " and s: " + came +
+                    (gates.empty() ? "" : ", " + std::to_string(rest) + " of them elsewhere")));
+}
+
+}  // namespace
+
+Findings class_findings(const Judgement& judgement, int object_class, const Knowledge& knowledge,
+                        const TruthOptions& options) {
+  Findings out;
+  const Glances glances = glances_of(judgement, object_class);
+  if (glances.empty()) {
+    out.push_back({JsonPath(), nullptr,
+                   "classes." + knowledge.classes[static_cast<std::size_t>(object_class)].name +
+                       ": no truth of it was in view; it is as it was"});
+    return out;
+  }
+  const Detectability seen = fit_detectability(glances, static_cast<int>(judgement.sensors.size()));
+  add_models(judgement, object_class, knowledge, options, seen, glances, out);
+  add_detection(judgement, object_class, knowledge, seen, glances, out);
+  add_turnover(judgement, object_class, knowledge, options, out);
+  return out;
+}
+
+}  // namespace anchord::tuning

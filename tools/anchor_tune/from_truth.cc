@@ -1,0 +1,72 @@
+#include "tools/anchor_tune/from_truth.h"
+
+#include "tools/anchor_tune/knowledge_parts.h"
+
+namespace anchord::tuning {
+namespace {
+
+/// What must not colour the judgement: reports of the class and scores are to be seen as reported.
+Knowledge bare(Knowledge knowledge, double radius) {
+  const auto strip = [&](Sensor& sensor) {
+    if (knowledge.class_attribute >= 0) {
+      const auto a = static_cast<std::size_t>(knowledge.class_attribute);
+      sensor.confusion[a].clear();
+      sensor.prior[a].clear();
+    }
+    if (!sensor.noise.empty()) return;
+    const int d = knowledge.dims;
+    sensor.noise.assign(static_cast<std::size_t>(d * d), 0);
+    for (int i = 0; i < d; ++i)
+      sensor.noise[static_cast<std::size_t>(i * (d + 1))] = radius * radius / 4;
+  };
+  for (Sensor& sensor : knowledge.sensors) strip(sensor);
+  strip(knowledge.default_sensor);
+  return knowledge;
+}
+
+/// The second moments of the residuals, sensor frame, where the sensor's noise holds. Changes
+/// nothing and returns false where it does not.
+bool fit_noise(const Judgement& judgement, int sensor, Knowledge& knowledge) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  int count = 0;
+  for (const JudgedFrame& frame : judgement.frames)
+    for (const Judged& z : frame.detections) {
+      if (frame.sensor != sensor || z.verdict != Verdict::kRight || !z.needs_noise) continue;
+      sum += z.sensor_residual * z.sensor_residual.transpose();
+      ++count;
+    }
+  if (count <= knowledge.dims) return false;
+  std::vector<double>& noise =
+      own_settings(knowledge, judgement.sensors[static_cast<std::size_t>(sensor)]).noise;
+  const int d = knowledge.dims;
+  for (int i = 0; i < d; ++i)
+    for (int j = 0; j < d; ++j) noise[static_cast<std::size_t>(i * d + j)] = sum(i, j) / count;
+  return true;
+}
+
+}  // namespace
+
+Result<Findings> findings_from_truth(const std::vector<Recording>& recordings,
+                                     const Knowledge& knowledge, const TruthOptions& options) {
+  Knowledge judging = bare(knowledge, options.radius);
+  auto judgement = judge(recordings, options.radius, Background(judging));
+  if (!judgement) return judgement.error();
+  bool better_noise = false;
+  for (std::size_t s = 0; s < judgement->sensors.size(); ++s)
+    better_noise = fit_noise(*judgement, static_cast<int>(s), judging) || better_noise;
+  if (better_noise) judgement = judge(recordings, options.radius, Background(judging));
+  if (!judgement) return judgement.error();
+
+  Findings all;
+  for (std::size_t c = 0; c < knowledge.classes.size(); ++c) {
+    const auto found = class_findings(*judgement, static_cast<int>(c), judging, options);
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  for (std::size_t s = 0; s < judgement->sensors.size(); ++s) {
+    const auto found = sensor_findings(*judgement, static_cast<int>(s), judging, options.radius);
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  return all;
+}
+
+}  // namespace anchord::tuning

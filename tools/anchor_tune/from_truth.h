@@ -1,0 +1,28 @@
+#pragma once
+
+#include "tools/anchor_tune/finding.h"
+#include "tools/anchor_tune/matching.h"
+
+namespace anchord::tuning {
+
+struct TruthOptions {
+  double radius = 1;  ///< m, between a detection and the object that it is of
+  int gates = 0;      ///< at most so many places where objects come in; 0: they come anywhere
+};
+
+/// The numbers of a configuration from recordings that all have truth. Numbers of a class or sensor
+/// that there is nothing of stay as they are, and a finding without path says so. Refuses frames
+/// that place_in_map() refuses.
+Result<Findings> findings_from_truth(const std::vector<Recording>& recordings,
+                                     const Knowledge& knowledge, const TruthOptions& options);
+
+/// Of one sensor (index into judgement.sensors): clutter density, score calibration, confusion,
+/// noise. `knowledge` is what the frames were judged with.
+Findings sensor_findings(const Judgement& judgement, int sensor, const Knowledge& knowledge,
+                         double radius);
+
+/// Of one class: models with their motion, hiding, p_D of each sensor, arrivals and departures.
+Findings class_findings(const Judgement& judgement, int object_class, const Knowledge& knowledge,
+                        const TruthOptions& options);
+
+}  // namespace anchord::tuning
