@@ -16,9 +16,10 @@ constexpr int kMiss = -1;    // in place of a detection
 constexpr int kUnmade = -2;  // a child leaf that no hypothesis has asked for yet
 
 /// Merging makes room: up to this many times `max` associations are looked at before the best `max`
-/// are kept, as long as one more carries more than a thousandth of the weight so far.
+/// are kept, as long as one more carries more than 1e-4 of the weight so far: a parent of
+/// which not one is formed loses what it weighs.
 constexpr std::size_t kLookAhead = 2;
-constexpr double kWorthLookingAhead = -6.907755278982137;  // ln 0.001
+constexpr double kWorthLookingAhead = -9.210340371976182;  // ln 1e-4
 
 /// The clusters that detections tie together, as one: anchors in order, leaves numbered through.
 struct Tied {
