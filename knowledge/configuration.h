@@ -66,8 +66,9 @@ class [[nodiscard]] Configuration {
 ///   `transitions` count the models of the class that has them; a class with `models` of its own
 ///   that those of `classes.default` do not fit must have its own.
 /// - a model: `position_psd` 0.001, `acceleration_psd` 0.1, `initial_velocity_variance` 0.01,
-///   `place` the world, `rate` 0.001, `detectable` true, `initial_weight` 0 (1 for the first
-///   tracked model where no model has one). Weights are normalised; somewhere models have none.
+///   `vertical` 1 (those numbers in height, over those in the plane), `place` the world, `rate`
+///   0.001, `detectable` true, `initial_weight` 0 (1 for the first tracked model where no model has
+///   one). Weights are normalised; somewhere models have none.
 /// - a sensor: each key by itself from `sensors.default`, then `clutter_density` 1e-3 per m^d, no
 ///   `view` and no `noise`, `score_calibration` [0, 1] (scores count as logit p' = a + b logit p),
 ///   `pose_floor` 0, `identity_doubt` 0.01. Its `detection_probability` (a

@@ -143,6 +143,10 @@ class Maker {
       model.psd = size * size * dice_.scale(0.003, 0.3);
       if (kind == Kind::kConstantVelocity)
         model.initial_velocity_variance = size * size * dice_.scale(0.01, 0.3);
+      if (known().dims == 3 && dice_.chance(0.5)) {
+        model.psd.height *= 0.3;
+        model.initial_velocity_variance.height *= 0.3;
+      }
       return model;
     };
     const bool moves = dice_.chance(0.5);

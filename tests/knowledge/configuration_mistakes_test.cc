@@ -99,6 +99,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"("classes": {"cup": {"models": [{"kind": "constant_velocity",
                                                 "acceleration_psd": -1}]}})",
              "classes.cup.models[0].acceleration_psd", "of at least 0"},
+        Case{R"("classes": {"cup": {"models": [{"kind": "constant_position", "vertical": -1}]}})",
+             "classes.cup.models[0].vertical", "of at least 0"},
         Case{R"("classes": {"cup": {"models": [{"kind": "constant_position"},
                                      {"kind": "somewhere", "place": "tabel"}]}})",
              "classes.cup.models[1].place",

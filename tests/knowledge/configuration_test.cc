@@ -391,5 +391,19 @@ TEST(Configuration, HomeIsWithoutMistakes) {
   }
 }
 
+TEST(Configuration, MotionInHeightIsAShareOfThatInThePlane) {
+  const auto configuration = parse_configuration(R"({
+    "world": {"bounds": {"min": [0, 0, 0], "max": [10, 8, 3]}},
+    "classes": {"object": {"models": [
+      {"kind": "constant_velocity", "acceleration_psd": 0.5, "initial_velocity_variance": 4,
+       "vertical": 0.01},
+      {"kind": "constant_position", "position_psd": 0.2}]}}})");
+  ASSERT_TRUE(configuration.ok());
+  const auto& models = configuration.knowledge().classes[0].models;
+  EXPECT_EQ(models[0].psd, ByAxis(0.5, 0.005));
+  EXPECT_EQ(models[0].initial_velocity_variance, ByAxis(4, 0.04));
+  EXPECT_EQ(models[1].psd, ByAxis(0.2, 0.2));
+}
+
 }  // namespace
 }  // namespace anchord
