@@ -99,5 +99,5 @@ case $name in
   *) echo "$0: no set is called $name" >&2; exit 2 ;;
 esac
 printf '%s\n' "${measured[@]}" |
-  PYTHONPATH="$here/../experiments/maintenance${PYTHONPATH:+:$PYTHONPATH}" \
+  PYTHONPATH="$here/../experiments${PYTHONPATH:+:$PYTHONPATH}" \
     "$python" "$here/reliability.py" "$out/reliability.svg"
