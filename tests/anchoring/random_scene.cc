@@ -70,11 +70,9 @@ class Maker {
   void make_attributes() {
     Knowledge& k = known();
     if (variety_.classes) {
-      Attribute a{.name = "class",
-                  .kind = Attribute::Kind::kCategorical,
-                  .symbols = {"cup", "box"},
-                  .unit = "",
-                  .predicates = {}};
+      Attribute a;
+      a.name = "class";
+      a.symbols = {"cup", "box"};
       if (dice_.chance(0.5)) a.symbols.push_back("ball");
       k.attributes.push_back(a);
     }
@@ -143,10 +141,8 @@ class Maker {
       model.psd = size * size * dice_.scale(0.003, 0.3);
       if (kind == Kind::kConstantVelocity)
         model.initial_velocity_variance = size * size * dice_.scale(0.01, 0.3);
-      if (known().dims == 3 && dice_.chance(0.5)) {
-        model.psd.height *= 0.3;
-        model.initial_velocity_variance.height *= 0.3;
-      }
+      if (known().dims == 3 && dice_.chance(0.5))
+        model.psd.height *= 0.3, model.initial_velocity_variance.height *= 0.3;
       return model;
     };
     const bool moves = dice_.chance(0.5);
