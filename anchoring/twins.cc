@@ -59,7 +59,7 @@ class Twins {
     for (std::size_t l = 0; l < moving.size(); ++l) {
       if (moving[l] <= 0) continue;
       for (std::size_t k = 0; k < kept.size() && becomes[l] == Hypothesis::kNoLeaf; ++k)
-        if (kept[k] > 0 &&
+        if (kept[k] > 0 && to.leaves[k]->recent == other.leaves[l]->recent &&
             alike(*to.leaves[k], *other.leaves[l], std::min(kept[k], moving[l]), background_))
           becomes[l] = static_cast<int>(k);
       const int k = becomes[l];
