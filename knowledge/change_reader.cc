@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "knowledge/attribute_members.h"
 #include "knowledge/configuration_reader.h"
 
 namespace anchord {
@@ -44,29 +45,25 @@ std::vector<Transition> read_transitions(const JsonValue& value,
 
 std::vector<AttributeChange> read_changes(const JsonValue& value, const Knowledge& knowledge) {
   std::vector<AttributeChange> changes;
-  std::vector<std::string> known;
-  for (const Attribute& attribute : knowledge.attributes) known.push_back(attribute.name);
-  for (const auto& [name, entry] : value.members()) {
-    const auto index = entry.index_of(name, known, "attribute");
-    if (!index) continue;
-    const Attribute& attribute = knowledge.attributes[static_cast<std::size_t>(*index)];
-    AttributeChange change;
-    change.attribute = *index;
-    if (*index == knowledge.class_attribute) {
-      entry.mistake("an object keeps its class; what changes is another attribute");
-    } else if (attribute.kind == Attribute::Kind::kScalar) {
-      if (!entry.object_of({"drift"})) continue;
-      entry.read("drift", change.drift, kNotNegative);
-    } else {
-      if (!entry.object_of({"redraw", "transitions"})) continue;
-      entry.read("redraw", change.redraw, kRate);
-      const auto transitions = entry.find("transitions");
-      if (transitions) change.transitions = read_transitions(*transitions, attribute.symbols);
-      if (transitions && entry.find("redraw"))
-        entry.mistake("must have either \"redraw\" or \"transitions\"");
-    }
-    changes.push_back(std::move(change));
-  }
+  for_each_attribute(
+      value, knowledge, [&](std::size_t a, const Attribute& attribute, const JsonValue& entry) {
+        AttributeChange change;
+        change.attribute = static_cast<int>(a);
+        if (change.attribute == knowledge.class_attribute) {
+          entry.mistake("an object keeps its class; what changes is another attribute");
+        } else if (attribute.kind == Attribute::Kind::kScalar) {
+          if (!entry.object_of({"drift"})) return;
+          entry.read("drift", change.drift, kNotNegative);
+        } else {
+          if (!entry.object_of({"redraw", "transitions"})) return;
+          entry.read("redraw", change.redraw, kRate);
+          const auto transitions = entry.find("transitions");
+          if (transitions) change.transitions = read_transitions(*transitions, attribute.symbols);
+          if (transitions && entry.find("redraw"))
+            entry.mistake("must have either \"redraw\" or \"transitions\"");
+        }
+        changes.push_back(std::move(change));
+      });
   return changes;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "geometry/view.h"
+#include "knowledge/attribute_members.h"
 #include "knowledge/configuration_reader.h"
 
 namespace anchord {
@@ -64,50 +65,45 @@ void read_noise(const JsonValue& value, int dims, Sensor& sensor) {
   }
 }
 
-/// Calls `read(attribute index, value)` for every member that names a categorical attribute.
+/// for_each_attribute() that name a categorical one.
 template <typename Read>
-void for_each_attribute(const JsonValue& value, const Knowledge& knowledge, Read read) {
-  std::vector<std::string> known;
-  for (const Attribute& attribute : knowledge.attributes) known.push_back(attribute.name);
-  for (const auto& [name, entry] : value.members()) {
-    const auto index = entry.index_of(name, known, "attribute");
-    if (!index) continue;
-    const Attribute& attribute = knowledge.attributes[static_cast<std::size_t>(*index)];
-    if (attribute.kind == Attribute::Kind::kScalar) {
-      entry.mistake("is a scalar attribute; only categorical ones have this");
-    } else {
-      read(static_cast<std::size_t>(*index), attribute, entry);
-    }
-  }
+void for_each_categorical(const JsonValue& value, const Knowledge& knowledge, Read read) {
+  for_each_attribute(value, knowledge,
+                     [&](std::size_t a, const Attribute& attribute, const JsonValue& entry) {
+                       if (attribute.kind == Attribute::Kind::kScalar)
+                         entry.mistake("is a scalar attribute; only categorical ones have this");
+                       else
+                         read(a, attribute, entry);
+                     });
 }
 
 void read_prior(const JsonValue& value, const Knowledge& knowledge, Sensor& sensor) {
-  for_each_attribute(value, knowledge,
-                     [&](std::size_t a, const Attribute& attribute, const JsonValue& entry) {
-                       auto prior = read_distribution(entry, attribute.symbols);
-                       if (!prior) return;
-                       double sum = 0;
-                       for (double& p : *prior) sum += p = std::max(p, kLeastPrior);
-                       for (double& p : *prior) p /= sum;
-                       sensor.prior[a] = std::move(*prior);
-                     });
+  for_each_categorical(value, knowledge,
+                       [&](std::size_t a, const Attribute& attribute, const JsonValue& entry) {
+                         auto prior = read_distribution(entry, attribute.symbols);
+                         if (!prior) return;
+                         double sum = 0;
+                         for (double& p : *prior) sum += p = std::max(p, kLeastPrior);
+                         for (double& p : *prior) p /= sum;
+                         sensor.prior[a] = std::move(*prior);
+                       });
 }
 
 void read_confusion(const JsonValue& value, const Knowledge& knowledge, Sensor& sensor) {
-  for_each_attribute(value, knowledge,
-                     [&](std::size_t a, const Attribute& attribute, const JsonValue& entry) {
-                       const std::size_t n = attribute.symbols.size();
-                       std::vector<std::vector<double>> rows(n, std::vector<double>(n, 0.0));
-                       for (std::size_t s = 0; s < n; ++s) rows[s][s] = 1;
-                       for (const auto& [name, row] : entry.members()) {
-                         const auto s = row.index_of(name, attribute.symbols, "symbol");
-                         if (!s) continue;
-                         if (auto reported = read_distribution(row, attribute.symbols)) {
-                           rows[static_cast<std::size_t>(*s)] = std::move(*reported);
+  for_each_categorical(value, knowledge,
+                       [&](std::size_t a, const Attribute& attribute, const JsonValue& entry) {
+                         const std::size_t n = attribute.symbols.size();
+                         std::vector<std::vector<double>> rows(n, std::vector<double>(n, 0.0));
+                         for (std::size_t s = 0; s < n; ++s) rows[s][s] = 1;
+                         for (const auto& [name, row] : entry.members()) {
+                           const auto s = row.index_of(name, attribute.symbols, "symbol");
+                           if (!s) continue;
+                           if (auto reported = read_distribution(row, attribute.symbols)) {
+                             rows[static_cast<std::size_t>(*s)] = std::move(*reported);
+                           }
                          }
-                       }
-                       sensor.confusion[a] = std::move(rows);
-                     });
+                         sensor.confusion[a] = std::move(rows);
+                       });
 }
 
 void read_score_calibration(const JsonValue& value, Sensor& sensor) {

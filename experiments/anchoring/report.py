@@ -22,7 +22,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
 import tables
-from document import put
+from document import save
 from plot import Panel, figure
 
 
@@ -117,16 +117,7 @@ def main() -> None:
     if arguments.video:
         svg = figure([video_panel(*video) for video in arguments.video])
         (arguments.out / "anchoring-videos.svg").write_text(svg, encoding="utf-8")
-    places = [arguments.out]
-    if arguments.document:
-        put(arguments.document, blocks)
-        places.append(arguments.document.parent)
-    for place in places:
-        for name, svg in figures.items():
-            (place / f"anchoring-{name}.svg").write_text(svg, encoding="utf-8")
-    text = "".join(f"## {name}\n\n{block}\n" for name, block in blocks.items())
-    (arguments.out / "tables.md").write_text(text, encoding="utf-8")
-    print(text, end="")
+    save(arguments.out, arguments.document, "anchoring", figures, blocks)
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
 import tables
-from document import put
+from document import save
 from intervals import Runs, interval
 from plot import Panel, figure
 
@@ -113,17 +113,7 @@ def main() -> None:
         shown = [("house", v, f"Forty objects, psd {v}") for v in variants]
         figures["house"] = frontier(runs, shown, 40)
         blocks["house"] = "\n".join(tables.equal_distance(runs, v) for v in variants)
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    places = [arguments.out]
-    if arguments.document:
-        put(arguments.document, blocks)
-        places.append(arguments.document.parent)
-    for place in places:
-        for name, svg in figures.items():
-            (place / f"maintenance-{name}.svg").write_text(svg, encoding="utf-8")
-    text = "".join(f"## {name}\n\n{block}\n" for name, block in blocks.items())
-    (arguments.out / "tables.md").write_text(text, encoding="utf-8")
-    print(text, end="")
+    save(arguments.out, arguments.document, "maintenance", figures, blocks)
 
 
 if __name__ == "__main__":
