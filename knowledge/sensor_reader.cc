@@ -65,7 +65,7 @@ void read_noise(const JsonValue& value, int dims, Sensor& sensor) {
   }
 }
 
-/// for_each_attribute() that name a categorical one.
+/// for_each_attribute() of the categorical ones; a scalar one is a mistake.
 template <typename Read>
 void for_each_categorical(const JsonValue& value, const Knowledge& knowledge, Read read) {
   for_each_attribute(value, knowledge,
