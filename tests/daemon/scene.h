@@ -65,10 +65,12 @@ class TestFolder {
   TestFolder& operator=(const TestFolder&) = delete;
 
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  /// Writes a file there and says where it is.
+  /// Writes a file there, at once for whoever is reading it, and says where it is.
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(*this / name) << text;
-    return *this / name;
+    const std::string path = *this / name;
+    std::ofstream(path + ".new") << text;
+    std::filesystem::rename(path + ".new", path);
+    return path;
   }
 
  private:
