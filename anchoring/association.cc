@@ -27,10 +27,14 @@ struct Tied {
   ScratchVector<int> first_leaf;  // per anchor
   std::vector<std::shared_ptr<const Anchor>> anchors;
   HypothesisSet hypotheses;
-  int leading = 0;  // the hypothesis that was shown; -1 if it is no longer there
+  int leading = 0;     // the hypothesis that was shown; -1 if it is no longer there
+  double dropped = 0;  // the probability of hypotheses that were left out
+  bool cut = false;    // by what is allowed, not by the limits
 };
 
-Tied tie(const ScratchVector<PredictedCluster>& clusters, const Limits& limits) {
+/// `most`: so many hypotheses may be kept, if that is less than the limits say.
+Tied tie(const ScratchVector<PredictedCluster>& clusters, const Limits& limits,
+         std::optional<std::size_t> most) {
   Tied tied;
   for (const PredictedCluster& c : clusters) {
     for (std::size_t a = 0; a < c.leaves.size(); ++a) {
@@ -38,9 +42,14 @@ Tied tie(const ScratchVector<PredictedCluster>& clusters, const Limits& limits) 
       tied.anchors.push_back(c.cluster->anchors[a].anchor);
       for (const PredictedLeaf& leaf : c.leaves[a]) tied.leaves.push_back(&leaf);
     }
-    tied.hypotheses = tied.hypotheses.empty() ? c.cluster->hypotheses
-                                              : join(tied.hypotheses, c.cluster->hypotheses,
-                                                     limits.max_hypotheses, limits.min_weight);
+    tied.hypotheses = tied.hypotheses.empty()
+                          ? c.cluster->hypotheses
+                          : join(tied.hypotheses, c.cluster->hypotheses, limits.max_hypotheses,
+                                 limits.min_weight, &tied.dropped);
+  }
+  if (most && tied.hypotheses.size() > *most) {
+    tied.cut = true;
+    tied.dropped += prune(tied.hypotheses, static_cast<int>(*most), 0);
   }
   if (tied.hypotheses.empty()) tied.hypotheses.push_back({0.0, {}});
   const auto was_shown = [&](const Hypothesis& h) {
@@ -135,6 +144,24 @@ class Children {
   ScratchVector<int> number_;
 };
 
+/// When to stop looking at associations, of which the best come first.
+class Enough {
+ public:
+  Enough(const Limits& limits, const Allowance& allowance)
+      : kept_(limits.max_hypotheses), allowed_(allowance.associations) {}
+
+  /// After so many, the last of which carries `log_share` of their weight.
+  bool are(std::size_t formed, double log_share) const {
+    if (allowed_ && formed >= *allowed_) return true;
+    return kept_ > 0 && formed >= kept_ &&
+           (formed >= kLookAhead * kept_ || log_share < kWorthLookingAhead);
+  }
+
+ private:
+  std::size_t kept_;  // 0: no bound
+  std::optional<std::size_t> allowed_;
+};
+
 /// Makes the hypotheses of each parent weigh together what all its associations would, where only
 /// the best were formed. Else a rarer parent, of which fewer were, would lose by that each frame.
 void restore(const ScratchVector<int>& parent, const ScratchVector<double>& log_evidence,
@@ -170,12 +197,13 @@ bool PredictedCluster::departed(double min_existence) const {
   return true;
 }
 
-std::vector<std::shared_ptr<const Cluster>> associate(
-    const ScratchVector<PredictedCluster>& clusters, const ScratchVector<int>& detections,
-    const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
-    const Background& background, const Belief& belief, double& log_evidence) {
+Associated associate(const ScratchVector<PredictedCluster>& clusters,
+                     const ScratchVector<int>& detections, const MapFrame& frame,
+                     const std::vector<Origin>& origins, const Visibility& visibility,
+                     const Background& background, const Belief& belief,
+                     const Allowance& allowance) {
   const Limits& limits = background.knowledge.limits;
-  const Tied tied = tie(clusters, limits);
+  const Tied tied = tie(clusters, limits, allowance.parents);
   const AssociationProblem problem = problem_of(tied, detections);
   const std::size_t old_anchors = tied.anchors.size();
 
@@ -193,6 +221,8 @@ std::vector<std::shared_ptr<const Cluster>> associate(
 
   Children children(tied, detections, frame, belief.frames, visibility, background);
   RankedAssociations ranked(problem, background.log_least_weight);
+  const Enough enough(limits, allowance);
+  Associated out;
   double total = kLogZero;
   ScratchVector<int> given(tied.leaves.size(), kMiss);  // per leaf
   double least = kLogZero;                              // what is below has not been looked at
@@ -224,21 +254,22 @@ std::vector<std::shared_ptr<const Cluster>> associate(
     }
     joint.hypotheses.push_back(std::move(h));
     parent_of.push_back(next->parent);
-    const auto kept = static_cast<std::size_t>(limits.max_hypotheses);
-    if (kept > 0 && joint.hypotheses.size() >= kept &&
-        (joint.hypotheses.size() >= kLookAhead * kept ||
-         next->log_weight < total + kWorthLookingAhead)) {
+    if (enough.are(joint.hypotheses.size(), next->log_weight - total)) {
       least = next->log_weight;
       break;
     }
   }
+  const std::size_t formed = joint.hypotheses.size();
+  double dropped = 0;
   if (least != kLogZero) {
+    const double looked_at = total;
     const auto evidence = ranked.log_evidence();
     total = log_sum(evidence, [](double of_parent) { return of_parent; });
+    dropped = std::max(0.0, -std::expm1(looked_at - total));
     restore(parent_of, evidence, joint.hypotheses);
   }
-  log_evidence += total;
-  for (const int z : detections) log_evidence += origins[z].log_weight;
+  out.log_evidence = total;
+  for (const int z : detections) out.log_evidence += origins[z].log_weight;
   merge_equal(joint.hypotheses);
   if (limits.scan_depth > 0) {
     merge_alike(joint, background);
@@ -246,8 +277,13 @@ std::vector<std::shared_ptr<const Cluster>> associate(
     // Versions that were merged in several hypotheses alike are then one.
     if (merge_nearest(joint, limits.max_hypotheses, background)) merge_alike(joint, background);
   }
-  prune(joint.hypotheses, limits.max_hypotheses, limits.min_weight);
-  return split(joint, background, least == kLogZero ? 0 : std::exp(least - total));
+  out.effort.cut =
+      tied.cut || (allowance.associations && formed >= *allowance.associations && dropped > 0);
+  out.effort.work = (tied.hypotheses.size() + formed) * joint.anchors.size();
+  out.effort.dropped =
+      tied.dropped + dropped + prune(joint.hypotheses, limits.max_hypotheses, limits.min_weight);
+  out.clusters = split(joint, background, least == kLogZero ? 0 : std::exp(least - total));
+  return out;
 }
 
 }  // namespace anchord

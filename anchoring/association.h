@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "anchoring/belief.h"
@@ -44,6 +45,11 @@ struct Origin {
   std::optional<Kinematic> met;  ///< what it would be; none: an object at rest at z
 };
 
+/// How many hypotheses of a group of clusters may be looked at; nothing: as many as limits say.
+struct Allowance {
+  std::optional<std::size_t> parents, associations;  ///< before and after the frame
+};
+
 /// Folds one frame into a belief whose time is not after the frame's: prediction, association,
 /// births, undetected intensity, names. Deterministic.
 void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
@@ -55,12 +61,18 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
 PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame& frame,
                          const std::vector<Origin>& origins, const Visibility& visibility,
                          const Occlusion& occlusion, Nearby& nearby, const Background& background);
+/// What became of a group.
+struct Associated {
+  std::vector<std::shared_ptr<const Cluster>> clusters;
+  double log_evidence = 0;  ///< ln of the sum of all associations' weights
+  Effort effort;
+};
 /// Associates `detections` (indices into the frame, ascending) with the clusters that they tie
 /// together: the clusters after the frame. Without clusters each detection starts one of its own.
-/// Adds the ln of the sum of all associations' weights to `log_evidence`.
-std::vector<std::shared_ptr<const Cluster>> associate(
-    const ScratchVector<PredictedCluster>& clusters, const ScratchVector<int>& detections,
-    const MapFrame& frame, const std::vector<Origin>& origins, const Visibility& visibility,
-    const Background& background, const Belief& belief, double& log_evidence);
+Associated associate(const ScratchVector<PredictedCluster>& clusters,
+                     const ScratchVector<int>& detections, const MapFrame& frame,
+                     const std::vector<Origin>& origins, const Visibility& visibility,
+                     const Background& background, const Belief& belief,
+                     const Allowance& allowance);
 
 }  // namespace anchord

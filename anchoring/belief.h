@@ -63,6 +63,20 @@ struct SetAside {
   std::optional<std::string> alias;  ///< that it had, if it was named
 };
 
+/// What folding frames took, and what it let go.
+///
+/// Work is counted: one for each version of an anchor that is carried to a frame, and one for each
+/// anchor of each hypothesis that is looked at, before the frame and after it. It is about in
+/// proportion to the time that is taken, and the same wherever a frame is folded again.
+struct Effort {
+  std::uint64_t work = 0;
+  /// The probability of hypotheses that were left out, summed over clusters: no probability that
+  /// the belief gives was moved by more. What lies below `hypotheses.min_weight` and was never
+  /// formed is not in it.
+  double dropped = 0;
+  bool cut = false;  ///< a bound on the work left out hypotheses
+};
+
 /// All that is believed after some frames. A value that shares what did not change: copying one
 /// costs a pointer for each cluster. Leaves are lazy: each holds for its own time.
 struct Belief {
@@ -86,6 +100,10 @@ struct Belief {
   /// at p = 0.5, not that of all clutter. What pruning drops is missing from the sums. Events say
   /// what is so; they add nothing.
   double log_evidence = 0;
+
+  Effort effort;                 ///< by the newest frame that was folded
+  double dropped = 0;            ///< Effort::dropped, summed over all frames
+  std::uint64_t cut_frames = 0;  ///< those with Effort::cut
 
   /// Seconds since the start, as the undetected intensities count them.
   double seconds(Utime at) const { return seconds_between(start, at); }

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "anchoring/association.h"
+#include "anchoring/budget.h"
 #include "anchoring/coupling.h"
 #include "anchoring/naming.h"
 #include "core/log_probability.h"
@@ -120,10 +122,12 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   const Occlusion occlusion(belief, frame, background);
 
   Nearby nearby(frame, background);
+  belief.effort = {};
   std::vector<std::shared_ptr<const Cluster>> untouched;
   ScratchVector<PredictedCluster> touched;
   for (auto& cluster : belief.clusters) {
     auto predicted = predict(cluster, frame, from, visibility, occlusion, nearby, background);
+    for (const auto& leaves : predicted.leaves) belief.effort.work += leaves.size();
     if (predicted.touched())
       touched.push_back(std::move(predicted));
     else if (!predicted.departed(background.knowledge.limits.min_existence))
@@ -136,11 +140,21 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   belief.clusters = std::move(untouched);
   const std::size_t first_touched = belief.clusters.size();
   double log_evidence = -frame.sensor->clutter_density * visibility.volume();
+  std::optional<std::uint64_t> left = frame.work;
+  if (left) *left -= std::min(*left, belief.effort.work);
+  Budget budget(groups, left, background.knowledge.limits);
   for (const Group& group : groups) {
-    for (auto& cluster : associate(group.clusters, group.detections, frame, from, visibility,
-                                   background, belief, log_evidence))
-      belief.clusters.push_back(std::move(cluster));
+    auto [clusters, log_sum, effort] = associate(group.clusters, group.detections, frame, from,
+                                                 visibility, background, belief, budget.next());
+    std::move(clusters.begin(), clusters.end(), std::back_inserter(belief.clusters));
+    log_evidence += log_sum;
+    budget.take(effort.work);
+    belief.effort.work += effort.work;
+    belief.effort.dropped += effort.dropped;
+    belief.effort.cut = belief.effort.cut || effort.cut;
   }
+  belief.dropped += belief.effort.dropped;
+  belief.cut_frames += belief.effort.cut ? 1 : 0;
   belief.births += detections;
   name_anchors(belief, first_touched, background);
   const double time = belief.seconds(frame.utime);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ struct MapFrame {
   MapView view;
   std::optional<Eigen::Vector3d> eye;  ///< where the sensor was, if it said so
   std::vector<MapDetection> detections;
+  std::optional<std::uint64_t> work;  ///< bound on what folding it may take; see Effort
 };
 
 /// Checks everything about a frame that does not depend on the frames before it, and places it in

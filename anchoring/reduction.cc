@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 namespace anchord {
@@ -32,10 +33,11 @@ class Groups {
 
   /// Puts each that is nearer than `most` to a more probable one into the first such one.
   void widen(double most) {
+    label(most);
     std::vector<int> stay;
     for (const int h : heads_) {
       const auto near = std::find_if(stay.begin(), stay.end(), [&](int head) {
-        return apart(leaves_[h], leaves_[head], most) < most;
+        return labels_[h] == labels_[head] && apart(leaves_[h], leaves_[head], most) < most;
       });
       if (near == stay.end())
         stay.push_back(h);
@@ -56,6 +58,35 @@ class Groups {
   using Leaves = decltype(Hypothesis::leaf);
   static constexpr double kUnknown = -1;
   static constexpr std::size_t kMostKept = 512;  ///< versions of an anchor: 2 MB
+  static constexpr int kMostLabelled = 64;       ///< of more, all pairs are too many
+
+  /// Those whose labels differ are at least `most` apart: some anchor's versions are, even by steps
+  /// over others. Most pairs are told apart so, without looking at each anchor.
+  void label(double most) {
+    labels_.assign(leaves_.size(), 0);
+    std::vector<int> into;  // per version, and last for none: the first one near it
+    for (std::size_t a = 0; a < cluster_.anchors.size(); ++a) {
+      const auto& versions = cluster_.anchors[a].leaves;
+      const int n = static_cast<int>(versions.size());
+      if (n > kMostLabelled) continue;
+      into.resize(n + 1);
+      std::iota(into.begin(), into.end(), 0);
+      const auto root = [&](int l) {
+        while (into[l] != l) l = into[l] = into[into[l]];
+        return l;
+      };
+      for (int l = 0; l < n; ++l) {
+        if (versions[l]->existence < most) into[root(l)] = root(n);
+        for (int m = 0; m < l; ++m)
+          if (root(l) != root(m) && between(a, m, l) < most) into[root(l)] = root(m);
+      }
+      for (std::size_t h = 0; h < leaves_.size(); ++h) {
+        const int l = leaves_[h][a];
+        const int near = root(l == Hypothesis::kNoLeaf ? n : l);
+        labels_[h] = (labels_[h] ^ static_cast<std::uint64_t>(near)) * 1099511628211u;  // FNV-1a
+      }
+    }
+  }
 
   /// Of what is at least `most`, only that it is.
   double apart(const Leaves& g, const Leaves& h, double most) {
@@ -92,6 +123,7 @@ class Groups {
   const Background& background_;
   std::vector<int> into_, heads_;
   std::vector<Leaves> leaves_;              // per hypothesis, of it and all that went into it
+  std::vector<std::uint64_t> labels_;       // per hypothesis: see label()
   std::vector<std::vector<double>> known_;  // per anchor: see between()
 };
 

@@ -94,9 +94,10 @@ void World::insert(Step step) {
   while (recent_.size() > 1 && recent_.front().utime < horizon) recent_.pop_front();
 }
 
-Status World::apply(const Frame& frame) {
+Status World::apply(const Frame& frame, std::optional<std::uint64_t> work) {
   auto placed = check(frame);
   if (!placed) return placed.error();
+  placed->work = work;
   newest_[{frame.robot, frame.sensor}] = frame.utime;
   if (frame.utime < belief_->utime) ++late_frames_;
   insert({frame.utime, std::make_shared<const MapFrame>(*std::move(placed)), nullptr});

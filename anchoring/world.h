@@ -31,7 +31,10 @@ class World {
   /// put in its place: the belief is the one that folding in the order (utime, acceptance) gives.
   /// Refuses what place_in_map() does; kConflict: frames of one sensor out of time order, or one
   /// that is too late. A refused frame changes nothing.
-  Status apply(const Frame& frame);
+  ///
+  /// `work` bounds what folding it may take (see Effort), now and whenever a late frame makes it
+  /// be folded again. One that is reached leaves out the least probable hypotheses.
+  Status apply(const Frame& frame, std::optional<std::uint64_t> work = std::nullopt);
 
   /// Takes an event. It is put in its place among frames and events, as a late frame is, and takes
   /// effect at the time of the newest frame before it: the belief's utime does not move. One that

@@ -21,6 +21,7 @@ Journal::Journal(World world, std::unique_ptr<FrameLog> log, Statistics& statist
       log_(std::move(log)),
       statistics_(statistics),
       times_(times),
+      pace_(background_->knowledge.limits.frame_budget),
       hooks_(std::move(hooks)),
       published_(world_.belief()) {}
 
@@ -64,7 +65,8 @@ Status Journal::apply(const LoggedFrame& logged) {
     return number ? Status(Done{}) : Status(number.error());
   }
   const auto message = decode_frame(logged.bytes);
-  return message ? world_.apply(message->frame) : Status(message.error());
+  if (!message) return message.error();
+  return world_.apply(message->frame, logged.work);
 }
 
 Result<std::vector<Task>> Journal::tasks() {
@@ -185,9 +187,14 @@ Status Journal::fold(const Frame& frame, std::vector<Folded>& folded) {
   // What is folded is what a restart will read, to the bit; and what it could not is refused.
   const auto message = decode_frame(logged.bytes);
   if (!message) return message.error();
+  const std::uint64_t late = world_.late_frames();
+  const auto work = pace_.work();
+  if (work) logged.work = static_cast<std::int64_t>(*work);
   const auto begin = Clock::now();
-  if (Status applied = world_.apply(message->frame); !applied) return applied;
-  times_.add(std::chrono::duration<double>(Clock::now() - begin).count());
+  if (Status applied = world_.apply(message->frame, work); !applied) return applied;
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  times_.add(seconds);
+  if (world_.late_frames() == late) pace_.took(world_.belief()->effort.work, seconds);
   folded.push_back({std::move(logged), world_.belief()});
   return Done{};
 }

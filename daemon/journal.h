@@ -16,6 +16,7 @@
 #include "core/event.h"
 #include "core/frame.h"
 #include "core/verification.h"
+#include "daemon/pace.h"
 #include "daemon/statistics.h"
 #include "knowledge/frame_log.h"
 
@@ -120,6 +121,7 @@ class Journal {
   std::unique_ptr<FrameLog> log_;
   Statistics& statistics_;
   UpdateTimes& times_;
+  Pace pace_;
   Hooks hooks_;
   std::atomic<std::int64_t> sequence_{0};
   std::int64_t durable_sequence_ = 0;

@@ -68,10 +68,12 @@ HttpResponse status_answer(const StatusSources& from) {
            {"anchors", size.anchors},
            {"expected_count", size.expected},
            {"hypotheses", size.hypotheses},
-           {"clusters", belief->clusters.size()}};
+           {"clusters", belief->clusters.size()},
+           {"dropped_probability", belief->effort.dropped}};
   out["frames"] = {{"accepted", s.accepted.load()}, {"repeated", s.repeated.load()},
                    {"refused", s.refused.load()},   {"overrun", s.overrun.load()},
-                   {"late", s.late.load()},         {"lost", s.lost.load()}};
+                   {"late", s.late.load()},         {"lost", s.lost.load()},
+                   {"cut", belief->cut_frames}};
   out["update_us"] = {{"median", times.median_us}, {"p99", times.p99_us}, {"max", times.max_us}};
   out["log"] = {{"directory", from.data_directory},
                 {"frames", from.journal.logged_frames()},
@@ -109,6 +111,10 @@ HttpResponse metrics_answer(const StatusSources& from) {
   out.add("frames_overrun_total", "counter", "frames dropped, too many waiting", s.overrun.load());
   out.add("frames_late_total", "counter", "frames put in place behind newer ones", s.late.load());
   out.add("frames_lost_total", "counter", "gaps in publishers' numbering", s.lost.load());
+  out.add("frames_cut_total", "counter", "frames whose budget left out hypotheses",
+          belief->cut_frames);
+  out.add("dropped_probability_total", "counter", "probability of hypotheses that were left out",
+          belief->dropped);
   out.add("lcm_frames_received_total", "counter", "frames over LCM", s.received_lcm.load());
   out.add("lcm_refused_total", "counter", "messages over LCM refused", s.refused_lcm.load());
   out.add("lcm_published_total", "counter", "messages sent over LCM", s.published_lcm.load());

@@ -152,7 +152,7 @@ void read_places(const JsonValue& root, Knowledge& knowledge) {
 void read_limits(const JsonValue& root, Knowledge& knowledge) {
   const auto section = root.find("hypotheses");
   if (!section || !section->object_of({"max", "min_weight", "gate_probability", "scan_depth",
-                                       "min_existence", "min_symbol"})) {
+                                       "min_existence", "min_symbol", "frame_budget"})) {
     return;
   }
   constexpr int kMost = 1'000'000;
@@ -164,6 +164,7 @@ void read_limits(const JsonValue& root, Knowledge& knowledge) {
   section->read("min_existence", limits.min_existence, kBelowCertain);
   limits.min_symbol = std::min(limits.min_symbol, limits.min_weight);
   section->read("min_symbol", limits.min_symbol, {0, 0.1});
+  section->read("frame_budget", limits.frame_budget, {0, 60});
 }
 
 Knowledge read_knowledge(const nlohmann::json& document, ConfigurationMistakes& mistakes) {

@@ -53,8 +53,8 @@ Result<std::unique_ptr<FrameLog>> FrameLog::open(const std::string& directory,
 
   auto insert =
       Statement::prepare(*database,
-                         "INSERT INTO frames (sequence, utime, robot, sensor, bytes, kind) "
-                         "VALUES (?1, ?2, ?3, ?4, ?5, ?6)");
+                         "INSERT INTO frames (sequence, utime, robot, sensor, bytes, kind, work) "
+                         "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
   if (!insert) return insert.error();
   auto find = Statement::prepare(*database,
                                  "SELECT bytes = ?4 FROM frames "
@@ -74,9 +74,10 @@ Result<std::unique_ptr<FrameLog>> FrameLog::open(const std::string& directory,
   auto latest = Statement::prepare(
       *database, "SELECT max(utime) FROM frames WHERE robot = ?1 AND sensor = ?2 AND kind = 0");
   if (!latest) return latest.error();
-  auto read = Statement::prepare(*database,
-                                 "SELECT sequence, utime, robot, sensor, bytes, kind FROM frames "
-                                 "WHERE sequence >= ?1 ORDER BY sequence");
+  auto read =
+      Statement::prepare(*database,
+                         "SELECT sequence, utime, robot, sensor, bytes, kind, work FROM frames "
+                         "WHERE sequence >= ?1 ORDER BY sequence");
   if (!read) return read.error();
   auto last = database->read_integer("SELECT coalesce(max(sequence), 0) FROM frames");
   if (!last) return last.error();
@@ -119,13 +120,14 @@ Status FrameLog::append(const LoggedFrame& frame) {
   if (Status begun = begin_batch(); !begun) return begun;
   Statement& insert = store_->insert;
   ResetAtEnd reset(insert);
-  auto step = insert.bind(1, frame.sequence)
-                  .bind(2, frame.utime)
-                  .bind(3, std::string_view(frame.robot))
-                  .bind(4, std::string_view(frame.sensor))
-                  .bind(5, std::span<const std::uint8_t>(frame.bytes))
-                  .bind(6, static_cast<std::int64_t>(frame.kind))
-                  .step();
+  insert.bind(1, frame.sequence)
+      .bind(2, frame.utime)
+      .bind(3, std::string_view(frame.robot))
+      .bind(4, std::string_view(frame.sensor))
+      .bind(5, std::span<const std::uint8_t>(frame.bytes))
+      .bind(6, static_cast<std::int64_t>(frame.kind));
+  if (frame.work) insert.bind(7, *frame.work);
+  auto step = insert.step();
   if (step) {
     store_->last_sequence = frame.sequence;
     return Done{};
@@ -238,6 +240,8 @@ Status FrameLog::for_each(std::int64_t from_sequence,
     const auto bytes = read.bytes(4);
     frame.bytes.assign(bytes.begin(), bytes.end());
     frame.kind = static_cast<LoggedFrame::Kind>(read.integer(5));
+    frame.work.reset();
+    if (!read.is_null(6)) frame.work = read.integer(6);
     if (!callback(frame)) return Done{};
   }
 }

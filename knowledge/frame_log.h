@@ -21,7 +21,8 @@ struct LoggedFrame {
   std::int64_t sequence = 0;  ///< order of acceptance, from 1, strictly increasing
   Utime utime = 0;
   std::string robot, sensor;
-  std::vector<std::uint8_t> bytes;  ///< its canonical encoding; the log does not read it
+  std::vector<std::uint8_t> bytes;        ///< its canonical encoding; the log does not read it
+  std::optional<std::int64_t> work = {};  ///< bound on the work that folding it took, if there was
   bool operator==(const LoggedFrame&) const = default;
 };
 
@@ -45,7 +46,7 @@ struct LoggedFrame {
 class FrameLog {
  public:
   /// The format that this program writes; kept in the database's `user_version`.
-  static constexpr int kVersion = 2;
+  static constexpr int kVersion = 3;
 
   /// Opens the log in `directory` and creates both if missing. `max_bytes` bounds the database's
   /// size, 0: by the disk alone; at the bound appends fail as on a full disk.

@@ -133,6 +133,7 @@ struct Limits {
   int scan_depth = 20;               ///< frames; 0: none
   double min_existence = 1e-4;       ///< of a leaf
   double min_symbol = 1e-6;          ///< belief in a symbol after an update: none is ruled out
+  double frame_budget = 0;           ///< s, what a frame may take; 0: no bound
 };
 
 struct Knowledge {

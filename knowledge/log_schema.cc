@@ -21,7 +21,8 @@ CREATE TABLE frames (
   robot TEXT NOT NULL,
   sensor TEXT NOT NULL,
   bytes BLOB NOT NULL,
-  kind INTEGER NOT NULL DEFAULT 0
+  kind INTEGER NOT NULL DEFAULT 0,
+  work INTEGER
 ) STRICT;
 CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime) WHERE kind = 0;
 CREATE INDEX events_by_time ON frames (utime) WHERE kind = 1;
@@ -36,6 +37,9 @@ CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime) WHERE kind
 CREATE INDEX events_by_time ON frames (utime) WHERE kind = 1;
 CREATE TABLE tasks (id INTEGER PRIMARY KEY, ended INTEGER NOT NULL, bytes BLOB NOT NULL) STRICT;
 )";
+
+/// From version 2, which had no bounds on work.
+constexpr const char* kFromVersion2 = "ALTER TABLE frames ADD COLUMN work INTEGER;";
 
 Error io(std::string message) { return {ErrorCode::kIo, "", std::move(message)}; }
 
@@ -80,7 +84,8 @@ Status upgrade(Database& database) {
   if (*version >= kLogVersion) return Done{};
   auto transaction = Transaction::begin(database);
   if (!transaction) return transaction.error();
-  const std::string sql = kFromVersion1 + ("PRAGMA user_version=" + std::to_string(kLogVersion));
+  const std::string sql = (*version < 2 ? kFromVersion1 : std::string()) + kFromVersion2 +
+                          ("PRAGMA user_version=" + std::to_string(kLogVersion));
   if (auto made = database.execute(sql); !made) return made;
   return transaction->commit();
 }

@@ -20,7 +20,7 @@ std::uint64_t hash_of(const Hypothesis& h) {
 
 }  // namespace
 
-void normalise(HypothesisSet& set) {
+double normalise(HypothesisSet& set) {
   const auto better = [](const Hypothesis& a, const Hypothesis& b) {
     return a.log_weight > b.log_weight;
   };
@@ -28,6 +28,7 @@ void normalise(HypothesisSet& set) {
     std::stable_sort(set.begin(), set.end(), better);
   const double total = log_sum(set, [](const Hypothesis& h) { return h.log_weight; });
   for (auto& h : set) h.log_weight -= total;
+  return total;
 }
 
 void merge_equal(HypothesisSet& set) {
@@ -61,7 +62,8 @@ double prune(HypothesisSet& set, int max, double min_weight) {
   return dropped;
 }
 
-HypothesisSet join(const HypothesisSet& a, const HypothesisSet& b, int max, double min_weight) {
+HypothesisSet join(const HypothesisSet& a, const HypothesisSet& b, int max, double min_weight,
+                   double* dropped) {
   struct Pair {
     double log_weight;
     std::size_t i, j;
@@ -88,7 +90,8 @@ HypothesisSet join(const HypothesisSet& a, const HypothesisSet& b, int max, doub
     if (top.j + 1 < b.size()) heap.push({weight(top.i, top.j + 1), top.i, top.j + 1});
     if (top.j == 0 && top.i + 1 < a.size()) heap.push({weight(top.i + 1, 0), top.i + 1, 0});
   }
-  normalise(out);
+  const double log_total = normalise(out);
+  if (dropped) *dropped += std::max(0.0, -std::expm1(log_total));
   return out;
 }
 

@@ -18,8 +18,8 @@ struct Hypothesis {
 /// weights keep their order.
 using HypothesisSet = std::vector<Hypothesis>;
 
-/// Sorts and scales the weights so that they sum to 1.
-void normalise(HypothesisSet& set);
+/// Sorts and scales the weights so that they sum to 1. Returns ln of what they summed to.
+double normalise(HypothesisSet& set);
 
 /// Makes one of those that choose the same leaves, with the sum of their weights; normalises.
 void merge_equal(HypothesisSet& set);
@@ -29,8 +29,10 @@ void merge_equal(HypothesisSet& set);
 double prune(HypothesisSet& set, int max, double min_weight);
 
 /// The product of two independent clusters, anchors of `a` first: its best `max` hypotheses (0:
-/// all) of at least `min_weight`, best first, found without forming the others. Normalised.
-HypothesisSet join(const HypothesisSet& a, const HypothesisSet& b, int max, double min_weight);
+/// all) of at least `min_weight`, best first, found without forming the others. Normalised. Adds
+/// the probability of the others to `dropped`.
+HypothesisSet join(const HypothesisSet& a, const HypothesisSet& b, int max, double min_weight,
+                   double* dropped = nullptr);
 
 /// What a set says about some of its anchors: their joint distribution, normalised.
 HypothesisSet marginal(const HypothesisSet& set, const std::vector<int>& anchors);

@@ -1,6 +1,7 @@
 // Nothing acknowledged is lost, however the program ends, and the belief is that of the log.
 
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <set>
 #include <thread>
@@ -103,6 +104,56 @@ TEST(Restart, NothingAcknowledgedIsLostByKills) {
   for (const Frame& frame : {log.front(), log.back()})
     EXPECT_EQ(ask(restarted.port(), post("/v1/detections", json(frame))).body,
               "{\"accepted\":0,\"repeated\":1}\n");
+}
+
+/// Cups that stand close together, and where they are seen to and fro.
+Frame crowded(int number) {
+  Frame frame = frame_number(number);
+  const Detection cup = frame.detections.front();
+  frame.detections.clear();
+  for (int i = 0; i < 8; ++i) {
+    if ((i + number) % 5 == 0) continue;  // missed
+    Detection& seen = frame.detections.emplace_back(cup);
+    std::get<CartesianMeasurement>(seen.measurement).position[1] =
+        3 + 0.05 * i + 0.02 * std::cos(i * number);
+  }
+  return frame;
+}
+
+TEST(Restart, WorkThatWasBoundedIsBoundedAlikeAgain) {
+  TestFolder folder;
+  DaemonProcess::Options options;
+  const std::string scene = options.scene.substr(0, options.scene.rfind('}'));
+  options.scene = scene + R"(, "hypotheses": {"frame_budget": 1e-4}})";
+  std::string before;
+  {
+    DaemonProcess daemon(folder, options);
+    ASSERT_TRUE(daemon.ready());
+    for (int number = 1; number <= 40; ++number)
+      ASSERT_EQ(ask(daemon.port(), post("/v1/detections", json(crowded(number)))).status, 200);
+    EXPECT_GT(counter(daemon.port(), "/frames/cut"), 0);
+    before = belief(daemon.port());
+    EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+  }
+  // What each frame was allowed hung on the clock; it stands in the log.
+  std::set<std::int64_t> bounds;
+  {
+    auto log = FrameLog::open(folder / "data");
+    ASSERT_TRUE(log.ok());
+    ASSERT_TRUE((*log)
+                    ->for_each(1,
+                               [&](const LoggedFrame& frame) {
+                                 bounds.insert(frame.work.value_or(-1));
+                                 return true;
+                               })
+                    .ok());
+  }
+  EXPECT_GT(bounds.size(), 10u);
+  EXPECT_GT(*bounds.begin(), 0);
+  options.scene = scene + R"(, "hypotheses": {"frame_budget": 10}})";
+  DaemonProcess restarted(folder, options);
+  ASSERT_TRUE(restarted.ready());
+  EXPECT_EQ(belief(restarted.port()), before) << "by the bounds in the log, not by a new budget";
 }
 
 TEST(Restart, ATerminationUnderLoadIsClean) {

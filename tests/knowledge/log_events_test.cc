@@ -66,6 +66,38 @@ TEST_F(FrameLogTest, KeepsTheNewestRecordOfEachTask) {
   EXPECT_EQ(tasks(*log), (Tasks{{6, {6}}, {9, {9}}}));
 }
 
+TEST_F(FrameLogTest, KeepsTheBoundOnAFramesWork) {
+  {
+    auto log = open();
+    for (int i = 1; i <= 2; ++i) {
+      LoggedFrame frame = frame_number(i);
+      if (i == 2) frame.work = 12'345;
+      ASSERT_TRUE(log->append(frame).ok());
+    }
+    ASSERT_TRUE(log->commit().ok());
+  }
+  auto log = open();
+  const auto frames = all(*log);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].work, std::nullopt);
+  EXPECT_EQ(frames[1].work, 12'345);
+}
+
+TEST_F(FrameLogTest, BringsVersion2UpToDate) {
+  {
+    auto log = open();
+    ASSERT_TRUE(log->append(frame_number(1)).ok());
+    ASSERT_TRUE(log->commit().ok());
+  }
+  tamper("ALTER TABLE frames DROP COLUMN work; PRAGMA user_version=2");
+  auto log = open();
+  EXPECT_EQ(all(*log), std::vector<LoggedFrame>{frame_number(1)});
+  LoggedFrame bounded = frame_number(2);
+  bounded.work = 7;
+  ASSERT_TRUE(log->append(bounded).ok());
+  EXPECT_EQ(all(*log).back(), bounded);
+}
+
 TEST_F(FrameLogTest, BringsVersion1UpToDate) {
   {
     auto log = open();
@@ -75,7 +107,7 @@ TEST_F(FrameLogTest, BringsVersion1UpToDate) {
   // As the first version made it.
   tamper(
       "DROP TABLE tasks; DROP INDEX events_by_time; DROP INDEX frames_by_sensor;"
-      "ALTER TABLE frames DROP COLUMN kind;"
+      "ALTER TABLE frames DROP COLUMN kind; ALTER TABLE frames DROP COLUMN work;"
       "CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime);"
       "PRAGMA user_version=1");
   for (int time = 0; time < 2; ++time) {

@@ -37,6 +37,8 @@ int main(int argc, char** argv) {
   app.add_option("--hypotheses", options.line.hypotheses,
                  "the N best hypotheses of each cluster with each line")
       ->check(CLI::NonNegativeNumber);
+  app.add_option("--work", options.work,
+                 "bound on the work of each frame: versions carried, anchors of hypotheses");
   app.add_flag("--no-timing", no_timing, "leave elapsed_us out: equal runs give equal bytes");
   app.add_flag("--no-output", quiet, "write no belief, only fold");
   try {

@@ -37,8 +37,8 @@ class Applied {
   std::unordered_multimap<std::string, std::size_t> digests_;
 };
 
-Status apply(World& world, const Input& input) {
-  if (const auto* frame = std::get_if<Frame>(&input)) return world.apply(*frame);
+Status apply(World& world, const Input& input, std::optional<std::uint64_t> work) {
+  if (const auto* frame = std::get_if<Frame>(&input)) return world.apply(*frame, work);
   const auto number = world.apply(std::get<Event>(input));
   if (!number) return number.error();
   return Done{};
@@ -66,7 +66,10 @@ Json ReplayStatistics::json() const {
             {"p99", quantile(update_ms, 0.99)},
             {"max", quantile(update_ms, 1)}}},
           {"peak_rss_mb", static_cast<double>(usage.ru_maxrss) / 1024},
-          {"objects", objects}};
+          {"objects", objects},
+          {"work", work},
+          {"cut_frames", cut_frames},
+          {"dropped_probability", dropped_probability}};
 }
 
 Result<ReplayStatistics> replay(World& world, FrameSource& source, std::ostream* output,
@@ -83,13 +86,14 @@ Result<ReplayStatistics> replay(World& world, FrameSource& source, std::ostream*
     const Input& input = **next;
     if (applied.has(input)) continue;
     const double before = stopwatch();
-    if (Status done = apply(world, input); !done) return refused(done.error());
+    if (Status done = apply(world, input, options.work); !done) return refused(done.error());
     const double elapsed = stopwatch() - before;
     applied.add(input);
     if (const auto* frame = std::get_if<Frame>(&input)) {
       ++statistics.frames;
       statistics.detections += frame->detections.size();
       statistics.update_ms.push_back(elapsed * 1e3);
+      statistics.work += world.belief()->effort.work;
     } else {
       ++statistics.events;
     }
@@ -99,6 +103,10 @@ Result<ReplayStatistics> replay(World& world, FrameSource& source, std::ostream*
     *output << world_line(*world.belief(), *world.background(), line).dump() << '\n';
     if (!*output) return Error{ErrorCode::kIo, "", "the output cannot be written"};
   }
+  statistics.cut_frames = world.belief()->cut_frames;
+  if (statistics.frames > 0)
+    statistics.dropped_probability =
+        world.belief()->dropped / static_cast<double>(statistics.frames);
   for (const auto& object :
        read_objects(*world.belief(), world.belief()->utime, 0, *world.background()))
     statistics.objects += object.in_best ? 1 : 0;

@@ -15,7 +15,8 @@ using Stopwatch = std::function<double()>;
 
 struct ReplayOptions {
   WorldLineOptions line;
-  bool timing = true;  ///< write `elapsed_us`
+  bool timing = true;                 ///< write `elapsed_us`
+  std::optional<std::uint64_t> work;  ///< bound on what folding a frame may take; see Effort
 };
 
 /// What a replay did, for STATS.json.
@@ -23,9 +24,11 @@ struct ReplayStatistics {
   std::size_t frames = 0, detections = 0, events = 0;
   std::vector<double> update_ms;  ///< per applied frame
   std::size_t objects = 0;        ///< in the last best world
+  std::uint64_t work = 0, cut_frames = 0;
+  double dropped_probability = 0;  ///< mean per frame of Effort::dropped
 
   /// {"frames", "detections", "events", "update_ms": {"mean", "median", "p99", "max"},
-  /// "peak_rss_mb", "objects"}
+  /// "peak_rss_mb", "objects", "work", "cut_frames", "dropped_probability"}
   Json json() const;
 };
 

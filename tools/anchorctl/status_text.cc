@@ -55,8 +55,8 @@ std::string status_text(const Json& answer, const std::string& server, const Sty
                     (flag(answer, "ready") ? ", ready" : ", not ready"));
   if (const auto uptime_s = number(answer, "uptime_s")) add("up for", duration(*uptime_s));
   add("newest frame", date_and_time(utime(answer, "utime")));
-  add("frames",
-      counters(items(answer, "frames"), {"accepted", "repeated", "refused", "late", "lost"}));
+  add("frames", counters(items(answer, "frames"),
+                         {"accepted", "repeated", "refused", "late", "lost", "cut"}));
   add("belief", belief(answer));
   add("update", update_times(items(answer, "update_us")));
   add("log", stored(items(answer, "log")));
