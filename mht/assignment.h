@@ -42,6 +42,10 @@ class Assignment {
     return row_price_[z] + column_price_[pair.leaf] - pair.gain;
   }
   double slack_of_none(int z) const { return row_price_[z]; }
+  /// The price of what detection z is given to: what it costs if nobody has that.
+  double price_of_choice(int z) const {
+    return choice_[z] == kNone ? 0 : column_price_[choice_[z]];
+  }
 
  private:
   static constexpr int kFree = -1;

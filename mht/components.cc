@@ -10,9 +10,11 @@ namespace {
 
 /// Components of more detections are taken apart by what is wanted.
 constexpr int kManyDetections = 8;
-/// So many other choices, of little slack, make about a hundred assignments.
-constexpr std::size_t kFewAlternatives = 12;
-constexpr double kLeastReach = 0.01;
+/// So many pairs that are not in the best assignment, but in one within reach, make about a
+/// hundred assignments.
+constexpr int kFewChanges = 24;
+/// Where the search for a reach begins and ends; in the logarithm of a weight.
+constexpr double kLeastReach = 0.5, kMostReach = 100;
 
 std::uint64_t hash_of(const ScratchVector<int>& leaves) {
   std::uint64_t hash = 14695981039346656037u;  // FNV-1a
@@ -23,7 +25,7 @@ std::uint64_t hash_of(const ScratchVector<int>& leaves) {
 /// Some of a component's detections as a block of their own, if there is anything to choose.
 void add_block(const Component& component, const ScratchVector<int>& rows, double reach,
                ScratchVector<Block>& blocks) {
-  const auto& [gains, best] = *component.solved;
+  const auto& [gains, best, losses] = *component.solved;
   ScratchVector<int> detections, leaves, number(gains.leaves(), -1);
   PairGains own(static_cast<int>(rows.size()), 0);
   bool alternative = false;
@@ -31,11 +33,11 @@ void add_block(const Component& component, const ScratchVector<int>& rows, doubl
     detections.push_back(component.detections[i]);
     own.start_row();
     alternative =
-        alternative || (best.choice(i) != Assignment::kNone && best.slack_of_none(i) <= reach);
+        alternative || (best.choice(i) != Assignment::kNone && losses->of_none(i) <= reach);
+    std::size_t at = 0;
     for (const auto& pair : gains.of(i)) {
-      const bool chosen = pair.leaf == best.choice(i);
-      if (!chosen && best.slack(i, pair) > reach) continue;
-      alternative = alternative || !chosen;
+      if (losses->of(i, at++) > reach) continue;
+      alternative = alternative || pair.leaf != best.choice(i);
       if (number[pair.leaf] < 0) {
         number[pair.leaf] = static_cast<int>(leaves.size());
         leaves.push_back(component.leaves[pair.leaf]);
@@ -45,12 +47,13 @@ void add_block(const Component& component, const ScratchVector<int>& rows, doubl
   }
   if (!alternative) return;
   own.set_leaves(static_cast<int>(leaves.size()));
-  blocks.push_back({std::move(detections), std::move(leaves), {std::move(own), reach}});
+  blocks.push_back({std::move(detections), std::move(leaves), {std::move(own), reach, true}});
 }
 
 /// Detections that share a leaf in pairs that are wanted belong to one block.
-ScratchVector<Block> blocks_of(const Component& component, double reach) {
-  const auto& [gains, best] = *component.solved;
+ScratchVector<Block> blocks_of(Component& component, double reach) {
+  auto& [gains, best, losses] = *component.solved;
+  if (!losses || losses->reach() != reach) losses.emplace(gains, best, reach);
   const int n = gains.detections();
   ScratchVector<int> block(n), holder(gains.leaves(), -1);
   std::iota(block.begin(), block.end(), 0);
@@ -58,13 +61,15 @@ ScratchVector<Block> blocks_of(const Component& component, double reach) {
     while (block[i] != i) i = block[i] = block[block[i]];
     return i;
   };
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n; ++i) {
+    std::size_t at = 0;
     for (const auto& pair : gains.of(i)) {
-      if (pair.leaf != best.choice(i) && best.slack(i, pair) > reach) continue;
+      if (losses->of(i, at++) > reach) continue;
       if (holder[pair.leaf] < 0) holder[pair.leaf] = i;
       const int a = root(i), b = root(holder[pair.leaf]);
       block[std::max(a, b)] = std::min(a, b);
     }
+  }
   ScratchVector<ScratchVector<int>> members(n);
   for (int i = 0; i < n; ++i) members[root(i)].push_back(i);
   ScratchVector<Block> blocks;
@@ -171,24 +176,22 @@ Component Components::made(const ScratchVector<int>& leaves) {
   component.best = best.gain(gains);
   for (int i = 0; i < n; ++i)
     if (best.choice(i) != Assignment::kNone) component.best_leaf[i] = leaves[best.choice(i)];
-  component.solved = {std::move(gains), std::move(best)};
+  component.solved = {std::move(gains), std::move(best), std::nullopt};
   return component;
 }
 
-double Components::first_reach() const {
-  ScratchVector<double> slacks;
-  for (const Component& component : components_) {
-    if (!component.solved) continue;
-    const auto& [gains, best] = *component.solved;
-    for (int i = 0; i < gains.detections(); ++i) {
-      if (best.choice(i) != Assignment::kNone) slacks.push_back(best.slack_of_none(i));
-      for (const auto& pair : gains.of(i))
-        if (pair.leaf != best.choice(i)) slacks.push_back(best.slack(i, pair));
+double Components::first_reach() {
+  for (double reach = kLeastReach; reach < most_loss_; reach *= 2) {
+    int changes = 0;
+    for (Component& component : components_) {
+      if (!component.solved) continue;
+      auto& [gains, best, losses] = *component.solved;
+      changes += losses.emplace(gains, best, reach).within_reach();
     }
+    if (changes >= kFewChanges) return reach;
+    if (reach > kMostReach) break;
   }
-  if (slacks.size() <= kFewAlternatives) return -kLogZero;
-  std::nth_element(slacks.begin(), slacks.begin() + kFewAlternatives, slacks.end());
-  return std::max(slacks[kFewAlternatives], kLeastReach);
+  return most_loss_;
 }
 
 void Components::take_apart(double reach) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mht/association_problem.h"
+#include "mht/change_losses.h"
 #include "mht/ranked_assignments.h"
 
 namespace anchord {
@@ -29,6 +30,7 @@ struct Component {
   struct Solved {
     PairGains gains;
     Assignment best;
+    std::optional<ChangeLosses> losses;  ///< within the reach that was last asked for
   };
   std::optional<Solved> solved;
 
@@ -52,11 +54,11 @@ class Components {
   bool large() const { return large_; }
 
   /// A reach (see take_apart()) within which there are some, but not many assignments.
-  double first_reach() const;
+  double first_reach();
 
   /// Makes the blocks of components of many detections anew, for assignments that gain less than
-  /// the best one by at most `reach`: a pair whose slack is more than that, in the prices of the
-  /// best one, is in none of them.
+  /// the best one by at most `reach`: a pair that is in none of them is left out (see
+  /// ChangeLosses).
   void take_apart(double reach);
 
  private:

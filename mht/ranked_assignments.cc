@@ -4,81 +4,46 @@
 #include <utility>
 
 #include "core/log_probability.h"
+#include "mht/near_best.h"
 
 namespace anchord {
 namespace {
 
-/// At most so many assignments are all found at once.
+/// So few assignments are all found at once.
 constexpr std::size_t kFew = 64;
+/// Where few are expected, the search for all of them may take so many steps; so many detections
+/// may choose, since the steps are prepared in time of their third power.
+constexpr int kMostSteps = 10000, kMostDetections = 64;
 
-/// Every assignment of a small problem, by recursion over the detections.
-class Everything {
- public:
-  Everything(const PairGains& gains, double most_loss) : gains_(gains), most_loss_(most_loss) {
-    const int n = gains.detections();
-    chosen.assign(n, Assignment::kNone);
-    rest_.assign(n + 1, 0.0);
-    for (int z = n - 1; z >= 0; --z) {
-      double most = 0;
-      for (const auto& pair : gains.of(z)) most = std::max(most, pair.gain);
-      rest_[z] = rest_[z + 1] + most;
-    }
-  }
-
-  /// Calls `found(gain)` for each that is not too far below the best so far, while it is `chosen`.
-  template <typename Found>
-  void visit(int z, double gain, const Found& found) {
-    if (gain + rest_[z] < best_ - most_loss_) return;
-    if (z == gains_.detections()) {
-      best_ = std::max(best_, gain);
-      found(gain);
-      return;
-    }
-    const auto end = chosen.begin() + z;
-    for (const auto& pair : gains_.of(z)) {
-      if (std::find(chosen.begin(), end, pair.leaf) != end) continue;
-      chosen[z] = pair.leaf;
-      visit(z + 1, gain + pair.gain, found);
-    }
-    chosen[z] = Assignment::kNone;
-    visit(z + 1, gain, found);
-  }
-
-  SmallScratchVector<int, 8> chosen;
-
- private:
-  const PairGains& gains_;
-  double most_loss_, best_ = kLogZero;
-  SmallScratchVector<double, 8> rest_;  // what the detections from z on gain at most
-};
+bool few(const PairGains& gains) {
+  std::size_t most = 1;
+  for (int z = 0; z < gains.detections() && most <= kFew; ++z)
+    most *= 1 + (gains.of(z).end() - gains.of(z).begin());
+  return most <= kFew;
+}
 
 }  // namespace
 
-RankedAssignments::RankedAssignments(PairGains gains, double most_loss)
+RankedAssignments::RankedAssignments(PairGains gains, double most_loss, bool few_are_near)
     : gains_(std::move(gains)), most_loss_(most_loss) {
-  std::size_t most = 1;
-  for (int z = 0; z < gains_.detections() && most <= kFew; ++z)
-    most *= 1 + (gains_.of(z).end() - gains_.of(z).begin());
-  if (most <= kFew) {
-    rank_all();
-    return;
-  }
   Assignment best(gains_);
   const double gain = best.gain(gains_);
+  if ((few_are_near && gains_.detections() <= kMostDetections) || few(gains_))
+    if (rank_near(best, gain)) return;
   rank(best, gain);
-  branch({gain, true, 0, {}, std::move(best)});
+  solved_.push_back(std::move(best));
+  branch(gain, 0, {}, 0);
 }
 
-void RankedAssignments::rank_all() {
-  Everything all(gains_, most_loss_);
-  all.visit(0, 0, [&](double gain) {
-    ranked_.push_back({gain, choices_.size()});
-    choices_.insert(choices_.end(), all.chosen.begin(), all.chosen.end());
-  });
+bool RankedAssignments::rank_near(const Assignment& best, double gain) {
+  NearBest near(gains_, best, most_loss_);
+  if (!near.find_all(kMostSteps)) return false;
+  for (const auto& [loss, first] : near.found()) ranked_.push_back({gain - loss, first});
+  choices_ = near.choices();
   std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
     return a.gain != b.gain ? a.gain > b.gain : a.first < b.first;
   });
-  while (ranked_.back().gain < ranked_.front().gain - most_loss_) ranked_.pop_back();
+  return true;
 }
 
 void RankedAssignments::rank(const Assignment& assignment, double gain) {
@@ -91,16 +56,18 @@ void RankedAssignments::enter(Entry entry) {
   std::push_heap(heap_.begin(), heap_.end());
 }
 
-void RankedAssignments::branch(Part part) {
+void RankedAssignments::branch(double gain, int first, const Assignment::Banned& banned,
+                               std::size_t assignment) {
+  const Assignment& of = solved_[assignment];
   const double least = ranked_.front().gain - most_loss_;
-  for (int z = part.first; z < gains_.detections(); ++z) {
-    Assignment::Banned banned;
-    if (z == part.first) banned = part.banned;
-    banned.push_back(part.assignment.choice(z));
-    const double bound = part.bound - part.assignment.least_loss(z, banned, gains_);
+  for (int z = first; z < gains_.detections(); ++z) {
+    Assignment::Banned lost;
+    if (z == first) lost = banned;
+    lost.push_back(of.choice(z));
+    const double bound = gain - of.least_loss(z, lost, gains_);
     if (bound < least || bound == kLogZero) continue;
     enter({bound, parts_.size()});
-    parts_.push_back({bound, false, z, std::move(banned), part.assignment});
+    parts_.push_back({bound, false, z, std::move(lost), assignment});
   }
 }
 
@@ -111,17 +78,21 @@ bool RankedAssignments::find_next() {
     heap_.pop_back();
     Part& part = parts_[index];
     if (!part.solved) {
-      if (!part.assignment.reassign(part.first, part.banned, gains_)) continue;
+      Assignment own = solved_[part.assignment];
+      if (!own.reassign(part.first, part.banned, gains_)) continue;
       part.solved = true;
-      part.bound = part.assignment.gain(gains_);
+      part.bound = own.gain(gains_);
       if (part.bound < ranked_.front().gain - most_loss_) continue;
+      part.assignment = solved_.size();
+      solved_.push_back(std::move(own));
       if (!heap_.empty() && part.bound < heap_.front().bound) {
         enter({part.bound, index});
         continue;
       }
     }
-    rank(part.assignment, part.bound);
-    branch(std::move(part));
+    const Part found = std::move(part);
+    rank(solved_[found.assignment], found.bound);
+    branch(found.bound, found.first, found.banned, found.assignment);
     return true;
   }
   return false;

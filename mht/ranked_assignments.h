@@ -1,18 +1,21 @@
 #pragma once
 
+#include <deque>
+
 #include "core/scratch.h"
 #include "mht/assignment.h"
 
 namespace anchord {
 
-/// All assignments of a problem, best first. Few are all found at once. Of many the next is found
-/// when asked for: what is left of a solved problem is split by which detection is the first to
-/// change its choice (Murty 1968), and a part is solved only when its bound comes to the top
-/// (Miller, Stone, Cox 1997). Ties come in a fixed order.
+/// All assignments of a problem, best first. Where few are near the best, they are all found at
+/// once. Of many the next is found when asked for: what is left of a solved problem is split by
+/// which detection is the first to change its choice (Murty 1968), and a part is solved only when
+/// its bound comes to the top (Miller, Stone, Cox 1997). Ties come in a fixed order.
 class RankedAssignments {
  public:
   /// Assignments that gain less than the best one by more than `most_loss` may be left out.
-  RankedAssignments(PairGains gains, double most_loss);
+  /// `few_are_near`: that leaves few, as far as is known.
+  RankedAssignments(PairGains gains, double most_loss, bool few_are_near = false);
 
   /// Whether there is an i-th best, counted from 0.
   bool has(std::size_t i);
@@ -34,7 +37,7 @@ class RankedAssignments {
     bool solved;
     int first;  // detections before keep their choice; this one has lost those in banned
     Assignment::Banned banned;
-    Assignment assignment;  // of the part it came from, until solved
+    std::size_t assignment;  // in solved_: its own, or of the part that it comes from
   };
   struct Entry {
     double bound;
@@ -43,16 +46,17 @@ class RankedAssignments {
       return bound != other.bound ? bound < other.bound : part > other.part;
     }
   };
-  void rank_all();
+  bool rank_near(const Assignment& best, double gain);
   void rank(const Assignment& assignment, double gain);
   void enter(Entry entry);
-  void branch(Part part);
+  void branch(double gain, int first, const Assignment::Banned& banned, std::size_t assignment);
   bool find_next();
 
   PairGains gains_;
   double most_loss_;
   ScratchVector<Ranked> ranked_;
   ScratchVector<int> choices_;
+  std::deque<Assignment, ScratchAllocator<Assignment>> solved_;
   ScratchVector<Part> parts_;
   ScratchVector<Entry> heap_;
 };

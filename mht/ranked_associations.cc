@@ -7,7 +7,7 @@ namespace {
 
 /// Where what is within reach has all been given, the next reach. No association is likely to be
 /// just that far below the best.
-constexpr double kFurther = 1.618033988749895;
+constexpr double kFurther = 1.25;
 /// From here on all of it.
 constexpr double kMostReach = 100;
 
@@ -31,67 +31,76 @@ RankedAssociations::RankedAssociations(const AssociationProblem& problem, double
 
 void RankedAssociations::start() {
   components_.take_apart(reach_);
+  nodes_.clear();
   heap_.clear();
-  created_ = 0;
   for (std::size_t p = 0; p < choices_.size(); ++p) {
     Choices& choices = choices_[p];
     if (choices.best < best_ + log_least_) continue;
     choices.blocks.clear();
+    choices.leaf_of.clear();
     for (const int c : choices.components)
       for (Block& block : components_.at(c).blocks) choices.blocks.push_back(&block);
-    Node node{choices.best, static_cast<int>(p), 0, {}, 0};
-    node.rank.assign(choices.blocks.size(), 0);
-    push(std::move(node));
+    push({choices.best, static_cast<int>(p)});
   }
 }
 
-void RankedAssociations::push(Node node) {
-  node.number = created_++;
-  heap_.push_back(std::move(node));
+void RankedAssociations::push(const Node& node) {
+  heap_.push_back({node.log_weight, static_cast<int>(nodes_.size())});
+  nodes_.push_back(node);
   std::push_heap(heap_.begin(), heap_.end());
 }
 
-/// Each combination is reached once: by counting up its blocks in their order.
-void RankedAssociations::push_children(const Node& node) {
-  const auto& blocks = choices_[node.parent].blocks;
-  for (int b = node.last; b < static_cast<int>(blocks.size()); ++b) {
-    RankedAssignments& ranked = blocks[b]->ranked;
-    const int rank = node.rank[b];
-    if (!ranked.has(rank + 1)) continue;
-    const double log_weight = node.log_weight + (ranked.gain(rank + 1) - ranked.gain(rank));
-    if (log_weight < best_ + log_least_) continue;
-    Node child{log_weight, node.parent, b, node.rank, 0};
-    ++child.rank[b];
-    push(std::move(child));
-  }
+/// The next rank of a block, where the others are as in `rest` and all together weigh `log_weight`.
+void RankedAssociations::push_change(int rest, int block, int rank, double log_weight, int parent) {
+  RankedAssignments& ranked = choices_[parent].blocks[block]->ranked;
+  if (!ranked.has(rank)) return;
+  log_weight += ranked.gain(rank) - ranked.gain(rank - 1);
+  if (log_weight >= best_ + log_least_) push({log_weight, parent, block, rank, rest});
 }
 
-bool RankedAssociations::pop(Node& node) {
-  if (heap_.empty()) return false;
+/// Each combination is reached once: by counting up its blocks in their order.
+void RankedAssociations::push_children(int index) {
+  const Node node = nodes_[index];
+  const int blocks = static_cast<int>(choices_[node.parent].blocks.size());
+  if (node.block != kNothing)
+    push_change(node.rest, node.block, node.rank + 1, node.log_weight, node.parent);
+  for (int b = node.block + 1; b < blocks; ++b)
+    push_change(index, b, 1, node.log_weight, node.parent);
+}
+
+/// The best node that has not been given; kNothing: within reach there is none.
+int RankedAssociations::pop() {
+  if (heap_.empty()) return kNothing;
   std::pop_heap(heap_.begin(), heap_.end());
-  node = std::move(heap_.back());
+  const auto [log_weight, node] = heap_.back();
   heap_.pop_back();
   push_children(node);
-  return node.log_weight >= best_ - reach_;
+  return log_weight >= best_ - reach_ ? node : kNothing;
 }
 
-Association RankedAssociations::association_of(const Node& node) {
-  Association found{node.parent, node.log_weight, {}};
-  found.leaf_of.resize(problem_.detections, Association::kNone);
-  const Choices& choices = choices_[node.parent];
-  for (const int c : choices.components) {
-    const Component& component = components_.at(c);
-    for (std::size_t i = 0; i < component.detections.size(); ++i)
-      found.leaf_of[component.detections[i]] = component.best_leaf[i];
-  }
-  for (std::size_t b = 0; b < choices.blocks.size(); ++b) {
-    Block& block = *choices.blocks[b];
+Association RankedAssociations::association_of(int index) {
+  const Node& node = nodes_[index];
+  Choices& choices = choices_[node.parent];
+  const auto set = [](const Block& block, int rank, auto& leaf_of) {
     for (std::size_t i = 0; i < block.detections.size(); ++i) {
-      const int leaf = block.ranked.leaf_of(node.rank[b], static_cast<int>(i));
-      found.leaf_of[block.detections[i]] =
+      const int leaf = block.ranked.leaf_of(rank, static_cast<int>(i));
+      leaf_of[block.detections[i]] =
           leaf == Assignment::kNone ? Association::kNone : block.leaves[leaf];
     }
+  };
+  if (choices.leaf_of.empty()) {
+    choices.leaf_of.assign(problem_.detections, Association::kNone);
+    for (const int c : choices.components) {
+      const Component& component = components_.at(c);
+      for (std::size_t i = 0; i < component.detections.size(); ++i)
+        choices.leaf_of[component.detections[i]] = component.best_leaf[i];
+    }
+    for (const Block* block : choices.blocks) set(*block, 0, choices.leaf_of);
   }
+  Association found{node.parent, node.log_weight, {}};
+  found.leaf_of.assign(choices.leaf_of.begin(), choices.leaf_of.end());
+  for (int n = index; n != kNothing && nodes_[n].block != kNothing; n = nodes_[n].rest)
+    set(*choices.blocks[nodes_[n].block], nodes_[n].rank, found.leaf_of);
   return found;
 }
 
@@ -108,13 +117,14 @@ ScratchVector<double> RankedAssociations::log_evidence() const {
 }
 
 std::optional<Association> RankedAssociations::next() {
-  Node node;
-  while (!pop(node)) {
+  int node = pop();
+  while (node == kNothing) {
     if (!components_.large() || reach_ >= -log_least_) return std::nullopt;
     const double next = reach_ < kMostReach ? kFurther * reach_ : -kLogZero;
     reach_ = std::min(next, -log_least_);
     start();
-    for (std::size_t i = 0; i < given_; ++i) pop(node);
+    for (std::size_t i = 0; i < given_; ++i) pop();
+    node = pop();
   }
   ++given_;
   return association_of(node);

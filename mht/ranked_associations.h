@@ -30,32 +30,40 @@ class RankedAssociations {
     double best = 0;  // log-weight
     ScratchVector<int> components;
     ScratchVector<Block*> blocks;
+    ScratchVector<int> leaf_of;  // in its best association, once that has been given
   };
-  /// A parent's association: for each of its blocks which one of its ranking.
+  static constexpr int kNothing = -1;
+  /// A parent's association: the choices of another node, but for one later block.
   struct Node {
     double log_weight;
     int parent;
-    int last;  // block that was changed last: those before stay
-    SmallScratchVector<int, 8> rank;
-    std::size_t number;  // in order of creation: breaks ties
-    bool operator<(const Node& other) const {
-      return log_weight != other.log_weight ? log_weight < other.log_weight : number > other.number;
+    int block = kNothing;  // of the parent; the best association of a parent changes none
+    int rank = 0;          // of its ranking
+    int rest = kNothing;   // the node that has the other choices; none: all others are best
+  };
+  struct Entry {
+    double log_weight;
+    int node;  // in order of creation: breaks ties
+    bool operator<(const Entry& other) const {
+      return log_weight != other.log_weight ? log_weight < other.log_weight : node > other.node;
     }
   };
   void start();
-  void push(Node node);
-  void push_children(const Node& node);
-  bool pop(Node& node);
-  Association association_of(const Node& node);
+  void push(const Node& node);
+  void push_change(int rest, int block, int rank, double log_weight, int parent);
+  void push_children(int node);
+  int pop();
+  Association association_of(int node);
 
   const AssociationProblem& problem_;
   double log_least_;
   double reach_;  // below the best: what has been ranked
   double best_ = kLogZero;
-  std::size_t given_ = 0, created_ = 0;
+  std::size_t given_ = 0;
   Components components_;
   ScratchVector<Choices> choices_;  // per parent
-  ScratchVector<Node> heap_;
+  ScratchVector<Node> nodes_;
+  ScratchVector<Entry> heap_;
 };
 
 }  // namespace anchord
