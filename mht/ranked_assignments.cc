@@ -22,17 +22,49 @@ bool few(const PairGains& gains) {
   return most <= kFew;
 }
 
+/// Calls `found(gain)` for every assignment of the detections from `z` on, while it is `chosen`.
+template <typename Found>
+void visit_all(const PairGains& gains, SmallScratchVector<int, 8>& chosen, double gain,
+               const Found& found) {
+  const int z = static_cast<int>(chosen.size());
+  if (z == gains.detections()) {
+    found(gain);
+    return;
+  }
+  chosen.push_back(Assignment::kNone);
+  visit_all(gains, chosen, gain, found);
+  for (const auto& pair : gains.of(z)) {
+    const auto end = chosen.begin() + z;
+    if (std::find(chosen.begin(), end, pair.leaf) != end) continue;
+    chosen[z] = pair.leaf;
+    visit_all(gains, chosen, gain + pair.gain, found);
+  }
+  chosen.pop_back();
+}
+
 }  // namespace
 
 RankedAssignments::RankedAssignments(PairGains gains, double most_loss, bool few_are_near)
     : gains_(std::move(gains)), most_loss_(most_loss) {
+  if (few(gains_)) {
+    rank_all();
+    return;
+  }
   Assignment best(gains_);
   const double gain = best.gain(gains_);
-  if ((few_are_near && gains_.detections() <= kMostDetections) || few(gains_))
-    if (rank_near(best, gain)) return;
+  if (few_are_near && gains_.detections() <= kMostDetections && rank_near(best, gain)) return;
   rank(best, gain);
   solved_.push_back(std::move(best));
   branch(gain, 0, {}, 0);
+}
+
+void RankedAssignments::rank_all() {
+  SmallScratchVector<int, 8> chosen;
+  visit_all(gains_, chosen, 0, [&](double gain) {
+    ranked_.push_back({gain, choices_.size()});
+    choices_.insert(choices_.end(), chosen.begin(), chosen.end());
+  });
+  sort();
 }
 
 bool RankedAssignments::rank_near(const Assignment& best, double gain) {
@@ -40,10 +72,16 @@ bool RankedAssignments::rank_near(const Assignment& best, double gain) {
   if (!near.find_all(kMostSteps)) return false;
   for (const auto& [loss, first] : near.found()) ranked_.push_back({gain - loss, first});
   choices_ = near.choices();
+  sort();
+  return true;
+}
+
+/// What is too far below the best goes.
+void RankedAssignments::sort() {
   std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
     return a.gain != b.gain ? a.gain > b.gain : a.first < b.first;
   });
-  return true;
+  while (ranked_.back().gain < ranked_.front().gain - most_loss_) ranked_.pop_back();
 }
 
 void RankedAssignments::rank(const Assignment& assignment, double gain) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <deque>
-
 #include "core/scratch.h"
 #include "mht/assignment.h"
 
@@ -46,6 +44,8 @@ class RankedAssignments {
       return bound != other.bound ? bound < other.bound : part > other.part;
     }
   };
+  void rank_all();
+  void sort();
   bool rank_near(const Assignment& best, double gain);
   void rank(const Assignment& assignment, double gain);
   void enter(Entry entry);
@@ -56,7 +56,7 @@ class RankedAssignments {
   double most_loss_;
   ScratchVector<Ranked> ranked_;
   ScratchVector<int> choices_;
-  std::deque<Assignment, ScratchAllocator<Assignment>> solved_;
+  ScratchVector<Assignment> solved_;
   ScratchVector<Part> parts_;
   ScratchVector<Entry> heap_;
 };
