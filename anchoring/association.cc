@@ -26,10 +26,17 @@ struct Tied {
   ScratchVector<const PredictedLeaf*> leaves;
   ScratchVector<int> first_leaf;  // per anchor
   std::vector<std::shared_ptr<const Anchor>> anchors;
-  HypothesisSet hypotheses;
+  const HypothesisSet* of_first = nullptr;  // while there is but one cluster
+  HypothesisSet kept;
   int leading = 0;     // the hypothesis that was shown; -1 if it is no longer there
   double dropped = 0;  // the probability of hypotheses that were left out
   bool cut = false;    // by what is allowed, not by the limits
+
+  const HypothesisSet& hypotheses() const { return of_first ? *of_first : kept; }
+  void keep(HypothesisSet set) {
+    kept = std::move(set);
+    of_first = nullptr;
+  }
 };
 
 /// `most`: so many hypotheses may be kept, if that is less than the limits say.
@@ -42,16 +49,19 @@ Tied tie(const ScratchVector<PredictedCluster>& clusters, const Limits& limits,
       tied.anchors.push_back(c.cluster->anchors[a].anchor);
       for (const PredictedLeaf& leaf : c.leaves[a]) tied.leaves.push_back(&leaf);
     }
-    tied.hypotheses = tied.hypotheses.empty()
-                          ? c.cluster->hypotheses
-                          : join(tied.hypotheses, c.cluster->hypotheses, limits.max_hypotheses,
-                                 limits.min_weight, &tied.dropped);
+    if (&c == &clusters.front())
+      tied.of_first = &c.cluster->hypotheses;
+    else
+      tied.keep(join(tied.hypotheses(), c.cluster->hypotheses, limits.max_hypotheses,
+                     limits.min_weight, &tied.dropped));
   }
-  if (most && tied.hypotheses.size() > *most) {
+  if (clusters.empty()) tied.keep({{0.0, {}}});
+  if (most && tied.hypotheses().size() > *most) {
+    HypothesisSet best(tied.hypotheses());
     tied.cut = true;
-    tied.dropped += prune(tied.hypotheses, static_cast<int>(*most), 0);
+    tied.dropped += prune(best, static_cast<int>(*most), 0);
+    tied.keep(std::move(best));
   }
-  if (tied.hypotheses.empty()) tied.hypotheses.push_back({0.0, {}});
   const auto was_shown = [&](const Hypothesis& h) {
     std::size_t at = 0;
     for (const PredictedCluster& c : clusters)
@@ -59,9 +69,9 @@ Tied tie(const ScratchVector<PredictedCluster>& clusters, const Limits& limits,
         if (h.leaf[at++] != leaf) return false;
     return true;
   };
-  const auto shown = std::find_if(tied.hypotheses.begin(), tied.hypotheses.end(), was_shown);
-  tied.leading =
-      shown == tied.hypotheses.end() ? -1 : static_cast<int>(shown - tied.hypotheses.begin());
+  const HypothesisSet& all = tied.hypotheses();
+  const auto shown = std::find_if(all.begin(), all.end(), was_shown);
+  tied.leading = shown == all.end() ? -1 : static_cast<int>(shown - all.begin());
   return tied;
 }
 
@@ -76,7 +86,7 @@ AssociationProblem problem_of(const Tied& tied, const ScratchVector<int>& detect
         gains.push_back({static_cast<int>(at - detections.begin()), log_gain});
     }
   }
-  for (const Hypothesis& h : tied.hypotheses) {
+  for (const Hypothesis& h : tied.hypotheses()) {
     AssociationProblem::Parent parent{h.log_weight, {}};
     for (std::size_t a = 0; a < h.leaf.size(); ++a) {
       if (h.leaf[a] == Hypothesis::kNoLeaf) continue;
@@ -107,7 +117,7 @@ class Children {
   int of(int leaf, int z, AnchorTree& tree) {
     int& number = number_[leaf * (detections_.size() + 1) + z + 1];
     if (number == kUnmade) {
-      auto child = std::make_shared<Leaf>(tied_.leaves[leaf]->leaf);
+      auto child = make_pooled<Leaf>(tied_.leaves[leaf]->leaf);
       become(*child, *tied_.leaves[leaf], z);
       if (child->existence < background_.knowledge.limits.min_existence || child->existence <= 0) {
         number = Hypothesis::kNoLeaf;
@@ -181,7 +191,7 @@ std::shared_ptr<const Leaf> birth(int z, const MapFrame& frame, const Origin& or
   Leaf leaf = first_leaf(frame.detections[z], origin.terms, origin.existence, frame.utime,
                          background, origin.met);
   if (limits.scan_depth > 0) leaf.recent.push_back(frame_number << 16 | z);
-  return std::make_shared<const Leaf>(std::move(leaf));
+  return make_pooled<const Leaf>(std::move(leaf));
 }
 
 }  // namespace
@@ -199,7 +209,7 @@ bool PredictedCluster::departed(double min_existence) const {
 
 Associated associate(const ScratchVector<PredictedCluster>& clusters,
                      const ScratchVector<int>& detections, const MapFrame& frame,
-                     const std::vector<Origin>& origins, const Visibility& visibility,
+                     const ScratchVector<Origin>& origins, const Visibility& visibility,
                      const Background& background, const Belief& belief,
                      const Allowance& allowance) {
   const Limits& limits = background.knowledge.limits;
@@ -214,8 +224,8 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
     auto leaf = birth(detections[z], frame, origins[detections[z]], belief.frames, background);
     if (!leaf) continue;
     anchor_of[z] = static_cast<int>(joint.anchors.size());
-    auto anchor = std::make_shared<const Anchor>(
-        Anchor{belief.births + detections[z] + 1, "", "", std::nullopt});
+    auto anchor =
+        make_pooled<const Anchor>(Anchor{belief.births + detections[z] + 1, "", "", std::nullopt});
     joint.anchors.push_back({std::move(anchor), {std::move(leaf)}});
   }
 
@@ -240,7 +250,7 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
       else if (anchor_of[z] >= 0)
         h.leaf[anchor_of[z]] = 0;
     }
-    const Hypothesis& parent = tied.hypotheses[next->parent];
+    const Hypothesis& parent = tied.hypotheses()[next->parent];
     for (std::size_t a = 0; a < old_anchors; ++a) {
       if (parent.leaf[a] == Hypothesis::kNoLeaf) continue;
       const int leaf = tied.first_leaf[a] + parent.leaf[a];
@@ -279,7 +289,7 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
   }
   out.effort.cut =
       tied.cut || (allowance.associations && formed >= *allowance.associations && dropped > 0);
-  out.effort.work = (tied.hypotheses.size() + formed) * joint.anchors.size();
+  out.effort.work = (tied.hypotheses().size() + formed) * joint.anchors.size();
   out.effort.dropped =
       tied.dropped + dropped + prune(joint.hypotheses, limits.max_hypotheses, limits.min_weight);
   out.clusters = split(joint, background, least == kLogZero ? 0 : std::exp(least - total));

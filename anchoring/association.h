@@ -38,7 +38,7 @@ struct PredictedCluster {
 
 /// What a detection is worth without any anchor.
 struct Origin {
-  std::vector<double> terms;     ///< per class p_D,c lambda_c(z) l(z|c)
+  ScratchVector<double> terms;   ///< per class p_D,c lambda_c(z) l(z|c)
   double expected = 0;           ///< e(z), their sum
   double log_weight = 0;         ///< ln(kappa(z) + e(z)), doubt included
   double existence = 0;          ///< e / (kappa + e)
@@ -56,14 +56,14 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
           const Background& background);
 
 /// The parts of fold(), in order.
-std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
-                            const Background& background);
+ScratchVector<Origin> origins(const Belief& belief, const MapFrame& frame,
+                              const Background& background);
 PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame& frame,
-                         const std::vector<Origin>& origins, const Visibility& visibility,
+                         const ScratchVector<Origin>& origins, const Visibility& visibility,
                          const Occlusion& occlusion, Nearby& nearby, const Background& background);
 /// What became of a group.
 struct Associated {
-  std::vector<std::shared_ptr<const Cluster>> clusters;
+  PoolVector<std::shared_ptr<const Cluster>> clusters;
   double log_evidence = 0;  ///< ln of the sum of all associations' weights
   Effort effort;
 };
@@ -71,7 +71,7 @@ struct Associated {
 /// together: the clusters after the frame. Without clusters each detection starts one of its own.
 Associated associate(const ScratchVector<PredictedCluster>& clusters,
                      const ScratchVector<int>& detections, const MapFrame& frame,
-                     const std::vector<Origin>& origins, const Visibility& visibility,
+                     const ScratchVector<Origin>& origins, const Visibility& visibility,
                      const Background& background, const Belief& belief,
                      const Allowance& allowance);
 

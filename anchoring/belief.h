@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "anchoring/leaf.h"
+#include "core/pool.h"
 #include "mht/hypothesis_set.h"
 #include "models/moving_intensity.h"
 #include "models/undetected_intensity.h"
@@ -38,14 +39,14 @@ struct Anchor {
 /// An anchor with its leaves: one for each history of associations that is kept.
 struct AnchorTree {
   std::shared_ptr<const Anchor> anchor;
-  std::vector<std::shared_ptr<const Leaf>> leaves;
+  PoolVector<std::shared_ptr<const Leaf>> leaves;
   int shown = Hypothesis::kNoLeaf;  ///< the leaf in the world that is shown
 };
 
 /// Anchors whose associations do not interact with any other's, and the possible worlds among
 /// them. Immutable once made.
 struct Cluster {
-  std::vector<AnchorTree> anchors;
+  PoolVector<AnchorTree> anchors;
   HypothesisSet hypotheses;  ///< normalised, best first; leaf numbers index AnchorTree::leaves
   int leading = 0;           ///< the hypothesis that the best world shows, see choose_leading()
 

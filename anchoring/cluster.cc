@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "anchoring/leading.h"
+#include "core/scratch.h"
 #include "mht/factors.h"
 
 namespace anchord {
@@ -22,19 +23,20 @@ constexpr double kNegligibleMerge = 1e-4;
 constexpr double kNegligible = 1e-4, kUneven = 0.05, kRounding = 1e-12;
 
 /// The leaves of an anchor, made fewer: for each old one the number of the one it is now part of.
-std::vector<int> merged(AnchorTree& tree, const std::vector<double>& probability,
-                        const Background& background) {
+ScratchVector<int> merged(AnchorTree& tree, const ScratchVector<double>& probability,
+                          const Background& background) {
   const std::size_t n = tree.leaves.size();
-  std::vector<int> order(n), number(n);
+  ScratchVector<int> order(n), number(n);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return probability[a] > probability[b]; });
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return probability[a] != probability[b] ? probability[a] > probability[b] : a < b;
+  });
   struct Kept {
     int head;  // the most probable of those in it: what others are compared with
     std::shared_ptr<const Leaf> leaf;
     double probability;
   };
-  std::vector<Kept> kept;
+  ScratchVector<Kept> kept;
   for (int l : order) {
     const Leaf& leaf = *tree.leaves[l];
     const auto into = std::find_if(kept.begin(), kept.end(), [&](const Kept& k) {
@@ -44,7 +46,7 @@ std::vector<int> merged(AnchorTree& tree, const std::vector<double>& probability
     if (into == kept.end()) {
       kept.push_back({l, tree.leaves[l], probability[l]});
     } else if (probability[l] > 0) {
-      into->leaf = std::make_shared<const Leaf>(
+      into->leaf = make_pooled<const Leaf>(
           merge(into->probability, *into->leaf, probability[l], leaf, background));
       into->probability += probability[l];
     }
@@ -76,18 +78,19 @@ const Leaf* Cluster::best_leaf(int anchor) const {
 }
 
 void merge_alike(Cluster& cluster, const Background& background) {
-  std::vector<double> weight;
+  const Scratch scratch;
+  ScratchVector<double> weight;
   for (const Hypothesis& h : cluster.hypotheses) weight.push_back(std::exp(h.log_weight));
   bool any = false;
   for (std::size_t a = 0; a < cluster.anchors.size(); ++a) {
     AnchorTree& tree = cluster.anchors[a];
     if (tree.leaves.size() < 2) continue;
-    std::vector<double> probability(tree.leaves.size(), 0.0);
+    ScratchVector<double> probability(tree.leaves.size(), 0.0);
     for (std::size_t h = 0; h < weight.size(); ++h)
       if (const int leaf = cluster.hypotheses[h].leaf[a]; leaf != Hypothesis::kNoLeaf)
         probability[leaf] += weight[h];
     const std::size_t before = tree.leaves.size();
-    const std::vector<int> number = merged(tree, probability, background);
+    const ScratchVector<int> number = merged(tree, probability, background);
     any = any || tree.leaves.size() < before;
     for (Hypothesis& h : cluster.hypotheses)
       if (h.leaf[a] != Hypothesis::kNoLeaf) h.leaf[a] = number[h.leaf[a]];
@@ -96,8 +99,8 @@ void merge_alike(Cluster& cluster, const Background& background) {
   if (any) merge_equal(cluster.hypotheses);
 }
 
-std::vector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
-                                                  const Background& background, double least) {
+PoolVector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
+                                                 const Background& background, double least) {
   const Limits& limits = background.knowledge.limits;
   const bool bounded = limits.min_weight > 0 || limits.max_hypotheses > 0;
   const bool full = limits.max_hypotheses > 0 &&
@@ -105,13 +108,14 @@ std::vector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
   const double last = full ? std::exp(cluster.hypotheses.back().log_weight) : 0;
   const double floor = std::max({limits.min_weight, least, last});
   const Cut cut = bounded ? Cut{floor, kNegligible, kUneven} : Cut{0, kRounding, 0};
-  std::vector<std::shared_ptr<const Cluster>> parts;
+  const Scratch scratch;
+  PoolVector<std::shared_ptr<const Cluster>> parts;
   for (Factor& factor : factorise(cluster.hypotheses, cut)) {
-    auto part = std::make_shared<Cluster>();
-    std::vector<int> used;
+    auto part = make_pooled<Cluster>();
+    ScratchVector<int> used;
     for (std::size_t i = 0; i < factor.anchors.size(); ++i) {
       const AnchorTree& whole = cluster.anchors[factor.anchors[i]];
-      std::vector<int> number(whole.leaves.size(), Hypothesis::kNoLeaf);
+      ScratchVector<int> number(whole.leaves.size(), Hypothesis::kNoLeaf);
       AnchorTree tree{whole.anchor, {}};
       for (Hypothesis& h : factor.hypotheses) {
         int& leaf = h.leaf[i];

@@ -32,8 +32,8 @@ double log_gain(const PredictedLeaf& predicted, const Anchor& anchor, const MapD
 
 /// What a detection would be, of the class that is likeliest by an origin's terms, where `moving`
 /// has a part in that term; `at_rest` are the terms without it.
-std::optional<Kinematic> met_by(const MapDetection& z, const std::vector<double>& terms,
-                                const std::vector<double>& at_rest, const Sensor& sensor,
+std::optional<Kinematic> met_by(const MapDetection& z, const ScratchVector<double>& terms,
+                                const ScratchVector<double>& at_rest, const Sensor& sensor,
                                 const std::vector<MovingIntensity>& moving,
                                 const Background& background) {
   const auto c = std::max_element(terms.begin(), terms.end()) - terms.begin();
@@ -50,9 +50,9 @@ std::optional<Kinematic> met_by(const MapDetection& z, const std::vector<double>
 
 }  // namespace
 
-std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
-                            const Background& background) {
-  std::vector<Origin> out;
+ScratchVector<Origin> origins(const Belief& belief, const MapFrame& frame,
+                              const Background& background) {
+  ScratchVector<Origin> out;
   out.reserve(frame.detections.size());
   const double time = belief.seconds(frame.utime);
   std::vector<MovingIntensity> moving = belief.moving;
@@ -63,7 +63,7 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
     for (int c = 0; c < background.classes(); ++c)
       origin.terms.push_back(frame.sensor->detection_probability[c] *
                              belief.undetected[c].at(cell, time) * z.class_ratio[c]);
-    const std::vector<double> at_rest = moving.empty() ? std::vector<double>{} : origin.terms;
+    const ScratchVector<double> at_rest = moving.empty() ? ScratchVector<double>{} : origin.terms;
     for (std::size_t c = 0; c < moving.size(); ++c)
       origin.terms[c] += frame.sensor->detection_probability[c] * moving[c].intensity(z.position) *
                          z.class_ratio[c];
@@ -80,7 +80,7 @@ std::vector<Origin> origins(const Belief& belief, const MapFrame& frame,
 }
 
 PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame& frame,
-                         const std::vector<Origin>& origins, const Visibility& visibility,
+                         const ScratchVector<Origin>& origins, const Visibility& visibility,
                          const Occlusion& occlusion, Nearby& nearby, const Background& background) {
   PredictedCluster out;
   out.gated.assign(frame.detections.size(), 0);

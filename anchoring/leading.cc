@@ -1,9 +1,9 @@
 #include "anchoring/leading.h"
 
 #include <cmath>
-#include <vector>
 
 #include "anchoring/reading.h"
+#include "core/scratch.h"
 #include "models/kinematic.h"
 
 namespace anchord {
@@ -41,7 +41,8 @@ class Names {
 
   /// Whether two hypotheses have objects in the same spots, only under other names.
   bool only_differ(const Hypothesis& g, const Hypothesis& h) const {
-    std::vector<const Leaf*> in_g, in_h;
+    const Scratch scratch;
+    ScratchVector<const Leaf*> in_g, in_h;
     for (std::size_t a = 0; a < h.leaf.size(); ++a) {
       if (g.leaf[a] == h.leaf[a]) continue;
       if (stands(a, g.leaf[a])) in_g.push_back(&leaf(a, g.leaf[a]));

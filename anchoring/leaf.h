@@ -3,6 +3,7 @@
 #include <array>
 #include <boost/container/small_vector.hpp>
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -81,9 +82,8 @@ void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& vis
 /// The leaf of a new anchor; `terms` are p_D,c lambda_c(z) l(z|c) per class, `existence` their sum
 /// over that and clutter. Its position is that of z, at rest; or, if it arrived on the move, what
 /// `met` says.
-Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double existence,
-                Utime utime, const Background& background,
-                const std::optional<Kinematic>& met = std::nullopt);
+Leaf first_leaf(const MapDetection& z, std::span<const double> terms, double existence, Utime utime,
+                const Background& background, const std::optional<Kinematic>& met = std::nullopt);
 
 /// The mixture of two versions of an anchor at the same time, by moments; weights > 0, any sum.
 Leaf merge(double weight_a, const Leaf& a, double weight_b, const Leaf& b,

@@ -133,8 +133,8 @@ void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& vis
   follow_class(leaf, background);
 }
 
-Leaf first_leaf(const MapDetection& z, const std::vector<double>& terms, double existence,
-                Utime utime, const Background& background, const std::optional<Kinematic>& met) {
+Leaf first_leaf(const MapDetection& z, std::span<const double> terms, double existence, Utime utime,
+                const Background& background, const std::optional<Kinematic>& met) {
   Leaf leaf;
   leaf.existence = existence;
   leaf.classes.assign(terms.begin(), terms.end());

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "core/scratch.h"
+
 namespace anchord {
 namespace {
 
@@ -34,7 +36,7 @@ class Groups {
   /// Puts each that is nearer than `most` to a more probable one into the first such one.
   void widen(double most) {
     label(most);
-    std::vector<int> stay;
+    ScratchVector<int> stay;
     for (const int h : heads_) {
       const auto near = std::find_if(stay.begin(), stay.end(), [&](int head) {
         return labels_[h] == labels_[head] && apart(leaves_[h], leaves_[head], most) < most;
@@ -48,8 +50,8 @@ class Groups {
   }
 
   /// For each hypothesis the one that it ends in; that of those that stay is their own.
-  std::vector<int> into() const {
-    std::vector<int> out = into_;
+  ScratchVector<int> into() const {
+    ScratchVector<int> out = into_;
     for (int& head : out) head = out[head];  // a head stands before all that go into it
     return out;
   }
@@ -64,7 +66,7 @@ class Groups {
   /// over others. Most pairs are told apart so, without looking at each anchor.
   void label(double most) {
     labels_.assign(leaves_.size(), 0);
-    std::vector<int> into;  // per version, and last for none: the first one near it
+    ScratchVector<int> into;  // per version, and last for none: the first one near it
     for (std::size_t a = 0; a < cluster_.anchors.size(); ++a) {
       const auto& versions = cluster_.anchors[a].leaves;
       const int n = static_cast<int>(versions.size());
@@ -121,17 +123,17 @@ class Groups {
 
   const Cluster& cluster_;
   const Background& background_;
-  std::vector<int> into_, heads_;
-  std::vector<Leaves> leaves_;              // per hypothesis, of it and all that went into it
-  std::vector<std::uint64_t> labels_;       // per hypothesis: see label()
-  std::vector<std::vector<double>> known_;  // per anchor: see between()
+  ScratchVector<int> into_, heads_;
+  ScratchVector<Leaves> leaves_;                // per hypothesis, of it and all that went into it
+  ScratchVector<std::uint64_t> labels_;         // per hypothesis: see label()
+  ScratchVector<ScratchVector<double>> known_;  // per anchor: see between()
 };
 
 /// A version that is not there at all is one that exists with probability 0.
 std::shared_ptr<const Leaf> mixed(double weight_a, const Leaf* a, double weight_b, const Leaf* b,
                                   const Background& background) {
-  if (a && b) return std::make_shared<const Leaf>(merge(weight_a, *a, weight_b, *b, background));
-  auto out = std::make_shared<Leaf>(a ? *a : *b);
+  if (a && b) return make_pooled<const Leaf>(merge(weight_a, *a, weight_b, *b, background));
+  auto out = make_pooled<Leaf>(a ? *a : *b);
   out->existence *= (a ? weight_a : weight_b) / (weight_a + weight_b);
   return out;
 }
@@ -172,8 +174,8 @@ class Merging {
  private:
   Cluster& cluster_;
   const Background& background_;
-  std::vector<int> first_new_;  // per anchor: leaves from here on are of one hypothesis alone
-  std::vector<double> weight_;
+  ScratchVector<int> first_new_;  // per anchor: leaves from here on are of one hypothesis alone
+  ScratchVector<double> weight_;
 };
 
 }  // namespace
@@ -181,13 +183,14 @@ class Merging {
 bool merge_nearest(Cluster& cluster, int max, const Background& background) {
   HypothesisSet& all = cluster.hypotheses;
   if (max <= 0 || all.size() <= static_cast<std::size_t>(max)) return false;
+  const Scratch scratch;
   Groups groups(cluster, background);
   for (double most = kClosest; most <= kFarthest && groups.count() > static_cast<std::size_t>(max);
        most *= kWider)
     groups.widen(most);
-  const std::vector<int> into = groups.into();
+  const ScratchVector<int> into = groups.into();
   // Of what was shown, the most probable hypothesis that has it.
-  std::vector<std::size_t> shows(cluster.anchors.size(), all.size());
+  ScratchVector<std::size_t> shows(cluster.anchors.size(), all.size());
   for (std::size_t a = 0; a < shows.size(); ++a)
     if (const int shown = cluster.anchors[a].shown; shown != Hypothesis::kNoLeaf)
       shows[a] = std::find_if(all.begin(), all.end(),

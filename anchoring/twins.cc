@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "anchoring/cluster.h"
 #include "anchoring/leading.h"
+#include "core/scratch.h"
 
 namespace anchord {
 namespace {
@@ -22,8 +22,8 @@ class Twins {
   }
 
   /// Anchors that may leave one name for another, or take it.
-  std::vector<int> candidates() const {
-    std::vector<int> out;
+  ScratchVector<int> candidates() const {
+    ScratchVector<int> out;
     for (std::size_t a = 0; a < cluster_.anchors.size(); ++a) {
       double present = 0;
       for (std::size_t h = 0; h < weight_.size(); ++h)
@@ -46,7 +46,7 @@ class Twins {
   /// In worlds without `into`: versions of `from` go by its name where it has one that is alike.
   bool join(int into, int from) {
     AnchorTree &to = cluster_.anchors[into], &other = cluster_.anchors[from];
-    std::vector<double> moving(other.leaves.size(), 0.0), kept(to.leaves.size(), 0.0);
+    ScratchVector<double> moving(other.leaves.size(), 0.0), kept(to.leaves.size(), 0.0);
     for (std::size_t i = 0; i < weight_.size(); ++i) {
       const auto& leaf = cluster_.hypotheses[i].leaf;
       if (leaf[into] != Hypothesis::kNoLeaf)
@@ -54,7 +54,7 @@ class Twins {
       else if (leaf[from] != Hypothesis::kNoLeaf)
         moving[leaf[from]] += weight_[i];
     }
-    std::vector<int> becomes(other.leaves.size(), Hypothesis::kNoLeaf);
+    ScratchVector<int> becomes(other.leaves.size(), Hypothesis::kNoLeaf);
     bool any = false;
     for (std::size_t l = 0; l < moving.size(); ++l) {
       if (moving[l] <= 0) continue;
@@ -64,7 +64,7 @@ class Twins {
           becomes[l] = static_cast<int>(k);
       const int k = becomes[l];
       if (k == Hypothesis::kNoLeaf) continue;
-      to.leaves[k] = std::make_shared<const Leaf>(
+      to.leaves[k] = make_pooled<const Leaf>(
           merge(kept[k], *to.leaves[k], moving[l], *other.leaves[l], background_));
       kept[k] += moving[l];
       any = true;
@@ -87,15 +87,16 @@ class Twins {
  private:
   Cluster& cluster_;
   const Background& background_;
-  std::vector<double> weight_;
+  ScratchVector<double> weight_;
 };
 
 }  // namespace
 
 void join_twins(Cluster& cluster, const Background& background) {
   if (cluster.hypotheses.size() < 2) return;
+  const Scratch scratch;
   Twins twins(cluster, background);
-  const std::vector<int> candidates = twins.candidates();
+  const ScratchVector<int> candidates = twins.candidates();
   bool any = false;
   for (std::size_t i = 0; i < candidates.size(); ++i)
     for (std::size_t j = i + 1; j < candidates.size(); ++j) {

@@ -2,7 +2,17 @@
 
 #include <boost/container/small_vector.hpp>
 #include <cstddef>
+#include <new>
+#include <utility>
 #include <vector>
+
+#ifdef __has_feature  // clang
+#if __has_feature(address_sanitizer)
+#define ANCHORD_SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define ANCHORD_SANITIZED  // each piece on its own, so that the sanitizer sees it
+#endif
 
 namespace anchord {
 
@@ -20,10 +30,31 @@ class Scratch {
   Scratch& operator=(const Scratch&) = delete;
 
   /// `size` bytes, aligned for anything that new aligns.
-  static void* allocate(std::size_t size);
-  static void deallocate(void* memory);
+  static void* allocate(std::size_t size) {
+#ifdef ANCHORD_SANITIZED
+    return ::operator new(size);
+#else
+    constexpr std::size_t kAlignment = alignof(std::max_align_t);
+    size = (size + kAlignment - 1) / kAlignment * kAlignment;
+    if (size > static_cast<std::size_t>(free_.end - free_.next)) return allocate_more(size);
+    return std::exchange(free_.next, free_.next + size);
+#endif
+  }
+  static void deallocate([[maybe_unused]] void* memory) {
+#ifdef ANCHORD_SANITIZED
+    ::operator delete(memory);
+#endif
+  }
 
  private:
+  friend struct ScratchBlocks;
+  /// What is left of this thread's last block.
+  struct Free {
+    std::byte *next, *end;
+  };
+  static inline thread_local constinit Free free_{nullptr, nullptr};
+  static void* allocate_more(std::size_t size);
+
   std::size_t block_, used_;  // where it began
 };
 

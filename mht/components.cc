@@ -108,8 +108,7 @@ ScratchVector<int> Components::of(const AssociationProblem::Parent& parent) {
   for (const int leaf : parent.leaves)
     if (!problem_.gains[leaf].empty())
       by_root.push_back({find(problem_.gains[leaf][0].detection), leaf});
-  std::stable_sort(by_root.begin(), by_root.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::sort(by_root.begin(), by_root.end());
   ScratchVector<int> components, leaves;
   for (std::size_t i = 0; i < by_root.size(); ++i) {
     leaves.push_back(by_root[i].second);

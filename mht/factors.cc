@@ -55,8 +55,8 @@ class Factoriser {
     }
   }
 
-  std::vector<Factor> factors() {
-    std::vector<Factor> out;
+  PoolVector<Factor> factors() {
+    PoolVector<Factor> out;
     ScratchVector<int> factor_of(parent_.size(), -1);  // per root
     for (int a = 0; a < static_cast<int>(parent_.size()); ++a) {
       int& factor = factor_of[find(a)];
@@ -183,7 +183,7 @@ class Factoriser {
 
 }  // namespace
 
-std::vector<Factor> factorise(const HypothesisSet& set, const Cut& cut) {
+PoolVector<Factor> factorise(const HypothesisSet& set, const Cut& cut) {
   if (set.empty() || set.front().leaf.empty()) return {};
   if (set.front().leaf.size() == 1) return {{{0}, set}};
   const Scratch scratch;

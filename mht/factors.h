@@ -8,7 +8,7 @@ namespace anchord {
 
 /// Some anchors of a cluster with their own hypotheses, independent of the cluster's others.
 struct Factor {
-  std::vector<int> anchors;  ///< ascending
+  PoolVector<int> anchors;   ///< ascending
   HypothesisSet hypotheses;  ///< over these anchors, in this order; normalised, best first
 };
 
@@ -32,6 +32,6 @@ struct Cut {
 /// the tail of the product.
 ///
 /// The set must be normalised, best first and without equal hypotheses.
-std::vector<Factor> factorise(const HypothesisSet& set, const Cut& cut);
+PoolVector<Factor> factorise(const HypothesisSet& set, const Cut& cut);
 
 }  // namespace anchord

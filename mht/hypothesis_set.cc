@@ -7,6 +7,7 @@
 
 #include "core/hash_table.h"
 #include "core/log_probability.h"
+#include "core/scratch.h"
 
 namespace anchord {
 namespace {
@@ -24,8 +25,17 @@ double normalise(HypothesisSet& set) {
   const auto better = [](const Hypothesis& a, const Hypothesis& b) {
     return a.log_weight > b.log_weight;
   };
-  if (!std::is_sorted(set.begin(), set.end(), better))
-    std::stable_sort(set.begin(), set.end(), better);
+  if (!std::is_sorted(set.begin(), set.end(), better)) {
+    const Scratch scratch;
+    ScratchVector<std::pair<double, int>> order;  // a stable sort, without memory of its own
+    for (const Hypothesis& h : set)
+      order.push_back({-h.log_weight, static_cast<int>(order.size())});
+    std::sort(order.begin(), order.end());
+    HypothesisSet sorted;
+    sorted.reserve(set.size());
+    for (const auto& [weight, i] : order) sorted.push_back(std::move(set[i]));
+    set = std::move(sorted);
+  }
   const double total = log_sum(set, [](const Hypothesis& h) { return h.log_weight; });
   for (auto& h : set) h.log_weight -= total;
   return total;
@@ -95,7 +105,7 @@ HypothesisSet join(const HypothesisSet& a, const HypothesisSet& b, int max, doub
   return out;
 }
 
-HypothesisSet marginal(const HypothesisSet& set, const std::vector<int>& anchors) {
+HypothesisSet marginal(const HypothesisSet& set, std::span<const int> anchors) {
   HypothesisSet out;
   out.reserve(set.size());
   for (const auto& h : set) {

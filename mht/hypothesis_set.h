@@ -1,7 +1,10 @@
 #pragma once
 
 #include <boost/container/small_vector.hpp>
+#include <span>
 #include <vector>
+
+#include "core/pool.h"
 
 namespace anchord {
 
@@ -11,12 +14,13 @@ struct Hypothesis {
   /// The anchor is not part of this world.
   static constexpr int kNoLeaf = -1;
   double log_weight = 0;
-  boost::container::small_vector<int, 12> leaf;  ///< per anchor of the cluster
+  /// Per anchor of the cluster.
+  boost::container::small_vector<int, 12, PoolAllocator<int>> leaf;
 };
 
 /// The hypotheses of one cluster, all over the same anchors. Functions keep them best first; equal
 /// weights keep their order.
-using HypothesisSet = std::vector<Hypothesis>;
+using HypothesisSet = PoolVector<Hypothesis>;
 
 /// Sorts and scales the weights so that they sum to 1. Returns ln of what they summed to.
 double normalise(HypothesisSet& set);
@@ -35,6 +39,6 @@ HypothesisSet join(const HypothesisSet& a, const HypothesisSet& b, int max, doub
                    double* dropped = nullptr);
 
 /// What a set says about some of its anchors: their joint distribution, normalised.
-HypothesisSet marginal(const HypothesisSet& set, const std::vector<int>& anchors);
+HypothesisSet marginal(const HypothesisSet& set, std::span<const int> anchors);
 
 }  // namespace anchord

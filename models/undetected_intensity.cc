@@ -1,9 +1,15 @@
 #include "models/undetected_intensity.h"
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 namespace anchord {
 namespace {
+
+/// A row of a tile.
+using Row = Eigen::Map<Eigen::ArrayXd>;
+using ConstRow = Eigen::Map<const Eigen::ArrayXd>;
 
 /// Integral of exp(-mu s) over s in [0, dt].
 double arrived(double mu, double dt) { return mu > 0 ? -std::expm1(-mu * dt) / mu : dt; }
@@ -48,17 +54,25 @@ double UndetectedIntensity::miss(const Look& look, double p, double time) {
     const double stay = std::exp(-mu * dt), rise = arrived(mu, dt);
     const int x0 = seen.tile % tiling_->columns * Tiling::kEdge;
     const int y0 = seen.tile / tiling_->columns * Tiling::kEdge;
-    auto next = std::make_shared<Tile>();
+    auto next = make_pooled<Tile>();
     next->time = time;
     next->intensity.resize(Tiling::kCells);
-    for (int y = 0; y < Tiling::kEdge && y0 + y < grid.rows; ++y)
-      for (int x = 0; x < Tiling::kEdge && x0 + x < grid.columns; ++x) {
-        const int i = y * Tiling::kEdge + x, cell = (y0 + y) * grid.columns + x0 + x;
-        const double before = old ? old->intensity[i] : model_->start;
-        const double now = before * stay + arrival_rate(cell) * rise;
-        seen_intensity += now * seen.share[i];
-        next->intensity[i] = now * (1 - p * seen.share[i]);
-      }
+    const int width = std::min(Tiling::kEdge, grid.columns - x0);
+    for (int y = 0; y < Tiling::kEdge && y0 + y < grid.rows; ++y) {
+      const int first = y * Tiling::kEdge, cell = (y0 + y) * grid.columns + x0;
+      Row now(next->intensity.data() + first, width);
+      if (old)
+        now = stay * ConstRow(old->intensity.data() + first, width);
+      else
+        now = stay * model_->start;
+      if (model_->arrival_rate_per_cell.empty())
+        now += rise * model_->arrival_rate;
+      else
+        now += rise * ConstRow(model_->arrival_rate_per_cell.data() + cell, width);
+      const ConstRow share(seen.share.data() + first, width);
+      seen_intensity += (now * share).sum();
+      now *= 1 - p * share;
+    }
     tiles_[seen.tile] = std::move(next);
   }
   return seen_intensity;

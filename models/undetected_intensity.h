@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/pool.h"
 #include "geometry/grid.h"
 
 namespace anchord {
@@ -58,7 +59,7 @@ class UndetectedIntensity {
  private:
   struct Tile {
     double time = 0;
-    std::vector<double> intensity;
+    PoolVector<double> intensity;
   };
   double untouched(int cell, double time) const;
   double arrival_rate(int cell) const {

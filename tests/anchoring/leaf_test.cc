@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
 #include <random>
 
@@ -196,7 +197,7 @@ TEST_F(Leaves, FollowClassGivesDensitiesToTheModelsOfTheirKindAndPlace) {
   // A cup that has been gone for a while: weight in all three models.
   Frame f = frame(0, {at(1.3, 1.6, 0.01)});
   const MapDetection z = place_in_map(f, background())->detections[0];
-  Leaf leaf = first_leaf(z, {0.9, 0.1}, 0.8, at_second(0), background());
+  Leaf leaf = first_leaf(z, std::array{0.9, 0.1}, 0.8, at_second(0), background());
   predict(leaf, at_second(10), background());
   const Leaf cup = leaf;
   leaf.classes = {0.2, 0.8};
@@ -236,7 +237,7 @@ struct LeavesWithoutSomewhere : Leaves {
 TEST_F(LeavesWithoutSomewhere, FollowClassGivesSomewhereToTheFirstTrackedModelByMoments) {
   Frame f = frame(0, {at(3, 3, 0.01)});
   const MapDetection z = place_in_map(f, background())->detections[0];
-  Leaf leaf = first_leaf(z, {0.9, 0.1}, 0.8, at_second(0), background());
+  Leaf leaf = first_leaf(z, std::array{0.9, 0.1}, 0.8, at_second(0), background());
   predict(leaf, at_second(10), background());
   const Gaussian before = moments(leaf);
   leaf.classes = {0.2, 0.8};

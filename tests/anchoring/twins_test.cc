@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "tests/anchoring/small_world.h"
@@ -19,7 +20,7 @@ const Background& background() {
 std::shared_ptr<const Leaf> leaf(double x) {
   MapFrame f = *place_in_map(frame(0, {at(x, 1)}), background());
   return std::make_shared<const Leaf>(
-      first_leaf(f.detections[0], {0.5, 0.5}, 1, at_second(0), background()));
+      first_leaf(f.detections[0], std::array{0.5, 0.5}, 1, at_second(0), background()));
 }
 
 /// Anchors with leaves at the given places, and possible worlds: probability, leaf of each anchor.

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace anchord {
+
+/// Memory for what outlives a frame, and is made anew by the thousand in each: what is given back
+/// is kept by the thread that gives it back, to be taken again, so that a warm engine asks the
+/// system for next to none. Each thread keeps a few MiB at most.
+class Pool {
+ public:
+  /// `size` bytes, aligned for anything that new aligns.
+  static void* allocate(std::size_t size);
+  /// From any thread; of the same size.
+  static void deallocate(void* memory, std::size_t size) noexcept;
+};
+
+template <typename T>
+struct PoolAllocator {
+  using value_type = T;
+  PoolAllocator() = default;
+  template <typename U>
+  PoolAllocator(const PoolAllocator<U>&) {}  // NOLINT: allocators convert
+  T* allocate(std::size_t n) { return static_cast<T*>(Pool::allocate(n * sizeof(T))); }
+  void deallocate(T* memory, std::size_t n) noexcept { Pool::deallocate(memory, n * sizeof(T)); }
+  bool operator==(const PoolAllocator&) const { return true; }
+};
+
+template <typename T>
+using PoolVector = std::vector<T, PoolAllocator<T>>;
+
+/// std::make_shared() with memory of the pool.
+template <typename T, typename... Arguments>
+std::shared_ptr<T> make_pooled(Arguments&&... arguments) {
+  return std::allocate_shared<T>(PoolAllocator<std::remove_const_t<T>>(),
+                                 std::forward<Arguments>(arguments)...);
+}
+
+}  // namespace anchord
