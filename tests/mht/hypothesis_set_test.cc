@@ -9,10 +9,10 @@
 namespace anchord {
 namespace {
 
-HypothesisSet set_of(
-    std::vector<std::pair<double, boost::container::small_vector<int, 12>>> entries) {
+HypothesisSet set_of(std::vector<std::pair<double, std::vector<int>>> entries) {
   HypothesisSet set;
-  for (auto& [weight, leaf] : entries) set.push_back({std::log(weight), leaf});
+  for (auto& [weight, leaf] : entries)
+    set.push_back({std::log(weight), {leaf.begin(), leaf.end()}});
   normalise(set);
   return set;
 }
@@ -45,7 +45,7 @@ TEST(HypothesisSet, JoinIsTheProductBestFirst) {
   const auto b = set_of({{0.6, {0, 0}}, {0.4, {1, 1}}});
   const auto all = join(a, b, 0, 0);
   ASSERT_EQ(all.size(), 6u);
-  EXPECT_EQ(all[0].leaf, (boost::container::small_vector<int, 12>{0, 0, 0}));
+  EXPECT_EQ(all[0].leaf, (decltype(Hypothesis::leaf){0, 0, 0}));
   EXPECT_NEAR(std::exp(all[5].log_weight), 0.04, 1e-15);
   for (std::size_t i = 1; i < all.size(); ++i) EXPECT_LE(all[i].log_weight, all[i - 1].log_weight);
   const auto three = join(a, b, 3, 0);
@@ -53,9 +53,9 @@ TEST(HypothesisSet, JoinIsTheProductBestFirst) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(three[i].leaf, all[i].leaf);
 }
 
-std::vector<std::vector<int>> groups(const std::vector<Factor>& factors) {
+std::vector<std::vector<int>> groups(const PoolVector<Factor>& factors) {
   std::vector<std::vector<int>> out;
-  for (const auto& factor : factors) out.push_back(factor.anchors);
+  for (const auto& factor : factors) out.emplace_back(factor.anchors.begin(), factor.anchors.end());
   return out;
 }
 
