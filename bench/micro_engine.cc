@@ -2,6 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <array>
+
 #include "anchoring/association.h"
 #include "anchoring/leaf.h"
 #include "bench/crowd.h"
@@ -18,7 +20,8 @@ struct Meeting {
   Background background{crowd_knowledge(parameters)};
   Crowd crowd = simulate(parameters, 1);
   MapFrame frame = place_in_map(crowd.frames[1], background).value();
-  Leaf leaf = first_leaf(frame.detections[0], {0.05}, 0.9, crowd.frames[0].utime, background);
+  Leaf leaf =
+      first_leaf(frame.detections[0], std::array{0.05}, 0.9, crowd.frames[0].utime, background);
   const std::vector<double>& detection_probability() const {
     return frame.sensor->detection_probability;
   }
