@@ -25,7 +25,7 @@ constexpr double kWorthLookingAhead = -9.210340371976182;  // ln 1e-4
 struct Tied {
   ScratchVector<const PredictedLeaf*> leaves;
   ScratchVector<int> first_leaf;  // per anchor
-  std::vector<std::shared_ptr<const Anchor>> anchors;
+  ScratchVector<std::shared_ptr<const Anchor>> anchors;
   const HypothesisSet* of_first = nullptr;  // while there is but one cluster
   HypothesisSet kept;
   int leading = 0;     // the hypothesis that was shown; -1 if it is no longer there

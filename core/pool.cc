@@ -1,5 +1,7 @@
 #include "core/pool.h"
 
+#include <algorithm>
+#include <bit>
 #include <new>
 
 #include "core/scratch.h"
@@ -13,7 +15,9 @@ constexpr bool kReuse = false;  // what is given back must not be touched
 constexpr bool kReuse = true;
 #endif
 
-constexpr std::size_t kStep = 64, kLargest = 4096, kMostKept = std::size_t{8} << 20;
+/// Sizes are multiples of a step and, beyond those, powers of two.
+constexpr std::size_t kStep = 64, kSteps = 64, kPowers = 8;
+constexpr std::size_t kLargest = kStep * kSteps << kPowers, kMostKept = std::size_t{8} << 20;
 
 struct Free {
   Free* next;
@@ -21,7 +25,7 @@ struct Free {
 
 /// What a thread keeps, by size. It has no destructor, for what ends after AtEnd.
 struct Kept {
-  Free* first[kLargest / kStep + 1];
+  Free* first[kSteps + kPowers];
   std::size_t bytes;
   bool closed;
 };
@@ -38,26 +42,37 @@ struct AtEnd {
 };
 thread_local AtEnd at_end;
 
-std::size_t steps_of(std::size_t size) { return (size + kStep - 1) / kStep; }
+struct Size {
+  std::size_t number, bytes;
+};
+
+Size size_for(std::size_t bytes) {
+  if (bytes <= kStep * kSteps) {
+    const std::size_t steps = std::max<std::size_t>((bytes + kStep - 1) / kStep, 1);
+    return {steps - 1, steps * kStep};
+  }
+  const std::size_t power = std::bit_ceil(bytes);
+  return {kSteps + std::countr_zero(power / (kStep * kSteps)) - 1, power};
+}
 
 }  // namespace
 
 void* Pool::allocate(std::size_t size) {
   if (!kReuse || size > kLargest) return ::operator new(size);
-  const std::size_t steps = steps_of(size);
-  Free*& first = kept.first[steps];
-  if (!first) return ::operator new(steps* kStep);
-  kept.bytes -= steps * kStep;
+  const auto [number, bytes] = size_for(size);
+  Free*& first = kept.first[number];
+  if (!first) return ::operator new(bytes);
+  kept.bytes -= bytes;
   return std::exchange(first, first->next);
 }
 
 void Pool::deallocate(void* memory, std::size_t size) noexcept {
-  const std::size_t steps = steps_of(size);
-  if (!kReuse || size > kLargest || kept.closed || kept.bytes + steps * kStep > kMostKept)
+  const auto [number, bytes] = size_for(size);
+  if (!kReuse || size > kLargest || kept.closed || kept.bytes + bytes > kMostKept)
     return ::operator delete(memory);
   if (kept.bytes == 0) at_end.watch();  // makes it, the first time
-  kept.bytes += steps * kStep;
-  kept.first[steps] = new (memory) Free{kept.first[steps]};
+  kept.bytes += bytes;
+  kept.first[number] = new (memory) Free{kept.first[number]};
 }
 
 }  // namespace anchord

@@ -88,7 +88,8 @@ HypothesisSet join(const HypothesisSet& a, const HypothesisSet& b, int max, doub
   const double least = min_weight > 0 ? std::log(min_weight) : kLogZero;
   HypothesisSet out;
   // Pair (i, j) is reached from (i, j - 1); (i, 0) from (i - 1, 0): each once.
-  std::priority_queue<Pair> heap;
+  const Scratch scratch;
+  std::priority_queue<Pair, ScratchVector<Pair>> heap;
   heap.push({weight(0, 0), 0, 0});
   while (!heap.empty() && (max == 0 || out.size() < static_cast<std::size_t>(max))) {
     const Pair top = heap.top();
