@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
 
@@ -125,9 +126,10 @@ Background::Background(Knowledge k)
   for (const Place& place : knowledge.places)
     footprints_.push_back(std::make_shared<Footprint>(Footprint::of(place.region, grid, dims)));
   compare_places();
+  number_places();
   for (const ObjectClass& c : knowledge.classes) {
     dynamics.push_back(dynamics_of(c));
-    has_extents = has_extents || !c.extent.isZero(0);
+    largest_extent = std::max(largest_extent, c.extent.norm());
     arrivals.push_back(std::make_shared<ArrivalModel>(ArrivalModel{
         c.undetected_intensity, c.departure_rate, c.arrival_rate, concentrated(c, *this)}));
     moving_arrivals.push_back(
@@ -139,7 +141,38 @@ Background::Background(Knowledge k)
   const double gate = knowledge.limits.gate_probability;
   gate_distance2 = gate < 1 ? boost::math::quantile(boost::math::chi_squared(dims), gate)
                             : std::numeric_limits<double>::infinity();
-  log_least_weight = std::log(knowledge.limits.min_weight);
+  const double least = knowledge.limits.min_weight;
+  log_least_weight = std::log(least);
+  constexpr double kFarthest = 8;  // beyond lies 6e-16
+  sight_deviations = kFarthest;
+  if (least > 0) {
+    const auto at = boost::math::quantile(boost::math::complement(boost::math::normal(), least));
+    sight_deviations = std::clamp(at, 0.0, kFarthest);
+  }
+}
+
+/// Those that a behaviour model looks for objects in have bits of their own, as far as they go.
+void Background::number_places() {
+  constexpr int kBits = 64;
+  const std::uint64_t others = std::uint64_t{1} << (kBits - 1);
+  for (const auto& footprint : footprints_) bits_[footprint.get()] = others;
+  int next = 0;
+  for (const ObjectClass& c : knowledge.classes)
+    for (const BehaviourModel& model : c.models) {
+      std::uint64_t& bit = bits_[footprint(model.place).get()];
+      if (!model.tracked() && bit == others && next < kBits - 1) bit = std::uint64_t{1} << next++;
+    }
+}
+
+std::uint64_t Background::places_in(const std::array<double, 4>& box) const {
+  std::uint64_t bits = 0;
+  for (const auto& footprint : footprints_) {
+    const Grid& cells = footprint->grid;
+    const Eigen::Vector3d low = cells.corner_min(0), high = cells.corner_max(cells.size() - 1);
+    if (low.x() <= box[2] && low.y() <= box[3] && high.x() >= box[0] && high.y() >= box[1])
+      bits |= bit_of(*footprint);
+  }
+  return bits;
 }
 
 int Background::place_of(const Footprint& footprint) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -38,12 +40,15 @@ struct Background {
   Grid grid;                       ///< over the bounds
   std::shared_ptr<const Tiling> tiling;
   Walls walls;
-  bool has_extents = false;  ///< of any class: objects hide each other
+  double largest_extent = 0;  ///< of any class, a diagonal, m; above 0: objects hide each other
   std::vector<std::shared_ptr<const ArrivalModel>> arrivals;  ///< per class
   /// Per class; empty where no class has any.
   std::vector<std::shared_ptr<const MovingArrivals>> moving_arrivals;
   double gate_distance2;    ///< squared Mahalanobis distance; infinite without gate
   double log_least_weight;  ///< ln of Limits::min_weight; minus infinity if 0
+  /// A density further than so many standard deviations from all that is in view, along x or y, is
+  /// not in view: less than Limits::min_weight of it would be, and never more than rounding.
+  double sight_deviations;
 
   /// The footprint of a place; -1: of the world's bounds. Made for every place.
   const std::shared_ptr<const Footprint>& footprint(int place) const {
@@ -59,6 +64,11 @@ struct Background {
   const std::vector<double>& overlap_any(const Footprint& footprint) const {
     return overlaps_any_.at(&footprint);
   }
+  /// A bit that stands for the place (or the bounds) of one of these footprints; where there are
+  /// too many places, for others too.
+  std::uint64_t bit_of(const Footprint& footprint) const { return bits_.at(&footprint); }
+  /// The bits of all places with a part in a box of the plane: x_min, y_min, x_max, y_max.
+  std::uint64_t places_in(const std::array<double, 4>& box) const;
   /// Whether outermost places are disjoint and every inner one lies in its parent.
   bool places_nest() const { return places_nest_; }
   /// The cell of a point, or -1 outside the bounds, where nothing is kept per cell.
@@ -78,9 +88,11 @@ struct Background {
   std::vector<std::shared_ptr<const Footprint>> footprints_;
   std::map<const Footprint*, std::vector<std::vector<double>>> overlaps_;
   std::map<const Footprint*, std::vector<double>> overlaps_any_;
+  std::map<const Footprint*, std::uint64_t> bits_;
   bool places_nest_ = true;
 
   void compare_places();
+  void number_places();
 };
 
 }  // namespace anchord

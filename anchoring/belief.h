@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "anchoring/clusters.h"
 #include "anchoring/leaf.h"
 #include "core/pool.h"
 #include "mht/hypothesis_set.h"
@@ -79,12 +80,12 @@ struct Effort {
 };
 
 /// All that is believed after some frames. A value that shares what did not change: copying one
-/// costs a pointer for each cluster. Leaves are lazy: each holds for its own time.
+/// costs a pointer for some dozens of clusters. Leaves are lazy: each holds for its own time.
 struct Belief {
   Utime utime = 0;  ///< of the newest frame; 0 before the first
   Utime start = 0;  ///< of the first frame
   std::uint64_t frames = 0;
-  std::vector<std::shared_ptr<const Cluster>> clusters;
+  Clusters clusters;
   std::vector<UndetectedIntensity> undetected;  ///< per class
   /// Of what arrives on the move, beside it: per class; empty where nothing does.
   std::vector<MovingIntensity> moving;

@@ -32,8 +32,8 @@ std::shared_ptr<const Cluster> only(const Cluster& cluster, const std::vector<in
 /// consists of, without what none of its worlds holds any more.
 void replace(Belief& belief, std::size_t old, const Cluster& changed,
              const Background& background) {
-  belief.clusters.erase(belief.clusters.begin() + static_cast<std::ptrdiff_t>(old));
-  for (auto& part : split(changed, background)) belief.clusters.push_back(std::move(part));
+  belief.clusters.erase(old);
+  for (auto& part : split(changed, background)) belief.clusters.add(std::move(part), background);
 }
 
 /// Takes an anchor out of the belief.
@@ -43,7 +43,7 @@ void remove(Belief& belief, const AnchorPlace& at, const Background& background)
   for (int a = 0; a < static_cast<int>(cluster->anchors.size()); ++a)
     if (a != at.anchor) others.push_back(a);
   if (others.empty())
-    belief.clusters.erase(belief.clusters.begin() + static_cast<std::ptrdiff_t>(at.cluster));
+    belief.clusters.erase(at.cluster);
   else
     replace(belief, at.cluster, *only(*cluster, others, background), background);
 }
@@ -105,7 +105,7 @@ void change_anchor(Belief& belief, const AnchorPlace& at, const Background& back
   auto cluster = std::make_shared<Cluster>(*belief.clusters[at.cluster]);
   change_leaves(cluster->anchors[at.anchor], belief.utime, background, change);
   choose_leading(*cluster, background.dims);
-  belief.clusters[at.cluster] = std::move(cluster);
+  belief.clusters.replace(at.cluster, std::move(cluster), background);
 }
 
 /// Grasped, placed or moved: so it exists.
@@ -123,12 +123,13 @@ void happen(Belief& belief, const AnchorPlace& at, const MapEvent& event,
   replace(belief, at.cluster, cluster, background);
 }
 
-void give_alias(Belief& belief, const AnchorPlace& at, const std::string& alias) {
+void give_alias(Belief& belief, const AnchorPlace& at, const std::string& alias,
+                const Background& background) {
   auto cluster = std::make_shared<Cluster>(*belief.clusters[at.cluster]);
   Anchor named = *cluster->anchors[at.anchor].anchor;
   named.alias = alias;
   cluster->anchors[at.anchor].anchor = std::make_shared<const Anchor>(std::move(named));
-  belief.clusters[at.cluster] = std::move(cluster);
+  belief.clusters.replace(at.cluster, std::move(cluster), background);
 }
 
 /// Two clusters as one; anchors of the first come first.
@@ -180,10 +181,10 @@ void join_anchors(Belief& belief, const MapEvent& event, const AnchorPlace& a, c
   std::vector<int> left;
   for (int i = 0; i < static_cast<int>(joint.anchors.size()); ++i)
     if (i != from) left.push_back(i);
-  belief.clusters[a.cluster] = only(joint, left, background);
+  belief.clusters.replace(a.cluster, only(joint, left, background), background);
   std::size_t at = a.cluster;
   if (!one) {
-    belief.clusters.erase(belief.clusters.begin() + static_cast<std::ptrdiff_t>(b.cluster));
+    belief.clusters.erase(b.cluster);
     at -= b.cluster < a.cluster ? 1 : 0;
   }
   const auto changed = belief.clusters[at];
@@ -196,9 +197,9 @@ void undo(Belief& belief, std::int64_t number, const Background& background) {
   const SetAside kept = *it;
   belief.set_aside.erase(it);
   const auto at = find_anchor(belief, kept.birth);
-  if (kept.alias) return give_alias(belief, *at, *kept.alias);
+  if (kept.alias) return give_alias(belief, *at, *kept.alias, background);
   if (at) remove(belief, *at, background);
-  for (const auto& cluster : kept.anchors) belief.clusters.push_back(cluster);
+  for (const auto& cluster : kept.anchors) belief.clusters.add(cluster, background);
 }
 
 /// Everything that a robot holds moves with it.
@@ -223,7 +224,7 @@ void happen_to(Belief& belief, const AnchorPlace& at, const MapEvent& event,
     }
     case Kind::kNamed:
       set_aside(belief, {event.number, {}, anchor.birth, anchor.alias});
-      return give_alias(belief, at, e.other);
+      return give_alias(belief, at, e.other, background);
     case Kind::kJoined:
       return join_anchors(belief, event, at, *find_anchor(belief, e.other), background);
     case Kind::kDropped:
@@ -246,7 +247,15 @@ void fold(Belief& belief, const MapEvent& event, const Background& background) {
     carry(belief, event, background);
   else
     happen_to(belief, *find_anchor(belief, event.event.object), event, background);
-  name_anchors(belief, 0, background);
+  std::vector<std::shared_ptr<const Cluster>> named(belief.clusters.begin(), belief.clusters.end());
+  name_anchors(named, belief, background);
+  std::vector<std::size_t> changed;
+  std::size_t c = 0;
+  for (const auto& cluster : belief.clusters) {
+    if (named[c] != cluster) changed.push_back(c);
+    ++c;
+  }
+  for (const std::size_t n : changed) belief.clusters.replace(n, named[n], background);
 }
 
 }  // namespace anchord

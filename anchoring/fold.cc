@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "anchoring/association.h"
 #include "anchoring/budget.h"
@@ -10,6 +11,8 @@
 
 namespace anchord {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Detections that come from a cluster with less probability tie it to no other. On simulated
 /// crowds from 1e-4 to 1e-2 makes little difference; without, identity is kept worse, since the
@@ -111,6 +114,41 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
   return out;
 }
 
+Concern::Concern(const MapFrame& frame, const Background& background)
+    : utime_(frame.utime), everything_(false) {
+  if (!frame.view.sees_nothing())
+    windows_.push_back(
+        Window::of(frame.utime, frame.view.bounds(), background.sight_deviations, 0, background));
+  if (frame.detections.empty()) return;
+  std::array<double, 4> box{kInfinity, kInfinity, -kInfinity, -kInfinity};
+  double widest = 0;
+  for (const MapDetection& z : frame.detections) {
+    const auto& [mean, covariance] = z.position;
+    box = {std::min(box[0], mean.x()), std::min(box[1], mean.y()), std::max(box[2], mean.x()),
+           std::max(box[3], mean.y())};
+    widest = std::max({widest, covariance(0, 0), covariance(1, 1)});
+    if (!z.object.empty()) named_.push_back(z.object);
+  }
+  everything_ = std::isinf(background.gate_distance2);
+  if (!everything_)
+    windows_.push_back(
+        Window::of(frame.utime, box, std::sqrt(background.gate_distance2), widest, background));
+}
+
+bool Concern::with(const Reach& reach) const {
+  if (everything_ || reach.due <= utime_) return true;
+  return std::any_of(windows_.begin(), windows_.end(),
+                     [&](const Window& window) { return reach.meets(window); });
+}
+
+bool Concern::names(const Cluster& cluster) const {
+  const auto called = [&](const AnchorTree& tree) {
+    return std::any_of(named_.begin(), named_.end(),
+                       [&](const std::string& name) { return tree.anchor->is_called(name); });
+  };
+  return std::any_of(cluster.anchors.begin(), cluster.anchors.end(), called);
+}
+
 void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
           const Background& background) {
   const Scratch scratch;
@@ -123,22 +161,27 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
 
   Nearby nearby(frame, background);
   belief.effort = {};
-  std::vector<std::shared_ptr<const Cluster>> untouched;
+  const Concern concern(frame, background);
   ScratchVector<PredictedCluster> touched;
-  for (auto& cluster : belief.clusters) {
+  std::vector<Clusters::Place> gone;
+  belief.clusters.visit(concern, [&](Clusters::Place place, const auto& cluster) {
     auto predicted = predict(cluster, frame, from, visibility, occlusion, nearby, background);
     for (const auto& leaves : predicted.leaves) belief.effort.work += leaves.size();
     if (predicted.touched())
       touched.push_back(std::move(predicted));
     else if (!predicted.departed(background.knowledge.limits.min_existence))
-      untouched.push_back(std::move(cluster));
-  }
+      return;
+    gone.push_back(place);
+  });
+  // Whatever stands next to what.
+  std::sort(touched.begin(), touched.end(), [](const auto& a, const auto& b) {
+    return a.cluster->anchors[0].anchor->birth < b.cluster->anchors[0].anchor->birth;
+  });
   const double negligible = background.knowledge.limits.min_weight > 0 ? kNegligible : 0;
   const ScratchVector<Group> groups =
       couple(std::move(touched), static_cast<int>(detections), negligible);
 
-  belief.clusters = std::move(untouched);
-  const std::size_t first_touched = belief.clusters.size();
+  std::vector<std::shared_ptr<const Cluster>> made;
   double log_evidence = -frame.sensor->clutter_density * visibility.volume();
   std::optional<std::uint64_t> left = frame.work;
   if (left) *left -= std::min(*left, belief.effort.work);
@@ -146,7 +189,7 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   for (const Group& group : groups) {
     auto [clusters, log_sum, effort] = associate(group.clusters, group.detections, frame, from,
                                                  visibility, background, belief, budget.next());
-    std::move(clusters.begin(), clusters.end(), std::back_inserter(belief.clusters));
+    std::move(clusters.begin(), clusters.end(), std::back_inserter(made));
     log_evidence += log_sum;
     budget.take(effort.work);
     belief.effort.work += effort.work;
@@ -156,7 +199,8 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   belief.dropped += belief.effort.dropped;
   belief.cut_frames += belief.effort.cut ? 1 : 0;
   belief.births += detections;
-  name_anchors(belief, first_touched, background);
+  name_anchors(made, belief, background);
+  belief.clusters.exchange(gone, made, background);
   const double time = belief.seconds(frame.utime);
   for (int c = 0; c < background.classes(); ++c) {
     const double p = frame.sensor->detection_probability[c];

@@ -13,27 +13,27 @@ bool deserves_name(const Cluster& cluster, int anchor) {
 
 }  // namespace
 
-void name_anchors(Belief& belief, std::size_t first_cluster, const Background& background) {
+void name_anchors(std::vector<std::shared_ptr<const Cluster>>& clusters, Belief& belief,
+                  const Background& background) {
   struct Unnamed {
     std::size_t cluster;
     int anchor;
   };
   std::map<std::uint64_t, Unnamed> in_order;  // by birth
-  for (std::size_t c = first_cluster; c < belief.clusters.size(); ++c)
-    for (int a = 0; a < static_cast<int>(belief.clusters[c]->anchors.size()); ++a) {
-      const Anchor& anchor = *belief.clusters[c]->anchors[a].anchor;
-      if (anchor.name.empty() && deserves_name(*belief.clusters[c], a))
-        in_order[anchor.birth] = {c, a};
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    for (int a = 0; a < static_cast<int>(clusters[c]->anchors.size()); ++a) {
+      const Anchor& anchor = *clusters[c]->anchors[a].anchor;
+      if (anchor.name.empty() && deserves_name(*clusters[c], a)) in_order[anchor.birth] = {c, a};
     }
   for (const auto& [birth, at] : in_order) {
-    auto cluster = std::make_shared<Cluster>(*belief.clusters[at.cluster]);
+    auto cluster = std::make_shared<Cluster>(*clusters[at.cluster]);
     AnchorTree& tree = cluster->anchors[at.anchor];
     const Leaf* best = cluster->best_leaf(at.anchor);
     const int c = (best ? best : tree.leaves.front().get())->top_class();
     Anchor named = *tree.anchor;
     named.name = background.object_class(c).name + "-" + std::to_string(++belief.names[c]);
     tree.anchor = std::make_shared<const Anchor>(std::move(named));
-    belief.clusters[at.cluster] = std::move(cluster);
+    clusters[at.cluster] = std::move(cluster);
   }
 }
 

@@ -4,9 +4,10 @@
 
 namespace anchord {
 
-/// Names the anchors of the clusters from `first_cluster` on that have come to p >= 0.5 or stand
-/// in the best world for the first time: their most probable class and a number that counts up
-/// per class, in order of birth. Names are never changed or used again.
-void name_anchors(Belief& belief, std::size_t first_cluster, const Background& background);
+/// Names the anchors of clusters that have come to p >= 0.5 or stand in the best world for the
+/// first time: their most probable class and a number that counts up per class (Belief::names), in
+/// order of birth. Names are never changed or used again.
+void name_anchors(std::vector<std::shared_ptr<const Cluster>>& clusters, Belief& belief,
+                  const Background& background);
 
 }  // namespace anchord

@@ -53,38 +53,47 @@ double half_depth(const Prism& prism, const Eigen::Vector3d& u) {
   return depth;
 }
 
-/// Whether something at most `radius` around a point may stand between an eye and what is in view.
-bool may_hide(const Eigen::Vector3d& point, double radius, const Eigen::Vector3d& eye,
-              const std::array<double, 4>& view) {
-  return point.x() + radius >= std::min(view[0], eye.x()) &&
-         point.y() + radius >= std::min(view[1], eye.y()) &&
-         point.x() - radius <= std::max(view[2], eye.x()) &&
-         point.y() - radius <= std::max(view[3], eye.y());
+/// A box around an eye and what is in view, and `more` around that.
+std::array<double, 4> between(const Eigen::Vector3d& eye, const std::array<double, 4>& view,
+                              double more) {
+  return {std::min(view[0], eye.x()) - more, std::min(view[1], eye.y()) - more,
+          std::max(view[2], eye.x()) + more, std::max(view[3], eye.y()) + more};
+}
+
+/// Whether a density is as good as nowhere in a box.
+bool outside(const Kinematic& density, const std::array<double, 4>& box) {
+  for (int i = 0; i < 2; ++i) {
+    const double reach = kFar * std::sqrt(density.pp(i, i));
+    if (density.position[i] + reach < box[i] || density.position[i] - reach > box[i + 2])
+      return true;
+  }
+  return false;
 }
 
 }  // namespace
 
 Occlusion::Occlusion(const Belief& belief, const MapFrame& frame, const Background& background)
     : dims_(background.dims) {
-  if (!frame.eye || frame.view.sees_nothing() || !background.has_extents) return;
+  if (!frame.eye || frame.view.sees_nothing() || background.largest_extent == 0) return;
   eye_ = *frame.eye;
   const auto seen = frame.view.bounds();
-  for (const auto& cluster : belief.clusters)
+  const Window window =
+      Window::of(frame.utime, between(eye_, seen, background.largest_extent), kFar, 0, background);
+  const auto may_hide = [&](const Reach& reach) { return reach.meets(window); };
+  belief.clusters.visit(may_hide, [&](Clusters::Place, const auto& cluster) {
     for (std::size_t a = 0; a < cluster->anchors.size(); ++a) {
       const Leaf* leaf = cluster->best_leaf(static_cast<int>(a));
       if (!leaf || leaf->existence < kBelievedIn || leaf->held) continue;
       const Eigen::Vector3d& extent = background.object_class(leaf->top_class()).extent;
       if (extent.isZero(0)) continue;
-      const auto& density = std::get<Kinematic>(leaf->models[leaf->top_model()].density);
-      const double dt = seconds_between(leaf->utime, frame.utime);
-      if (!may_hide(density.position + dt * density.velocity,
-                    extent.norm() + spread(density.pp + dt * dt * density.vv), eye_, seen))
-        continue;
       Leaf now = *leaf;
       predict(now, frame.utime, background);
+      const auto& density = std::get<Kinematic>(now.models[now.top_model()].density);
+      if (outside(density, between(eye_, seen, extent.norm()))) continue;
       const double p = cluster->existence(static_cast<int>(a)) * now.existence / leaf->existence;
       add(now, cluster->anchors[a].anchor->birth, p, background);
     }
+  });
   sort_into_bins();
 }
 

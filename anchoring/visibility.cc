@@ -115,6 +115,16 @@ double Visibility::clear_of_walls(const Gaussian& density) const {
   return clear_at_all / static_cast<double>(kAcross.size() * kElse.size() * up);
 }
 
+bool Visibility::out_of_view(const Kinematic& density) const {
+  const auto seen = view_.bounds();
+  for (int i = 0; i < 2; ++i) {
+    const double reach = background_->sight_deviations * std::sqrt(density.pp(i, i));
+    if (density.position[i] + reach < seen[i] || density.position[i] - reach > seen[i + 2])
+      return true;
+  }
+  return false;
+}
+
 LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_detect,
                               const Occlusion& occlusion, std::uint64_t birth) const {
   LeafVisibility shown;
@@ -126,6 +136,7 @@ LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_det
     if (!models[m].detectable || leaf.models[m].weight <= 0) continue;
     double& mass = shown.v_model[m];
     if (const auto* kinematic = std::get_if<Kinematic>(&leaf.models[m].density)) {
+      if (out_of_view(*kinematic)) continue;
       const Gaussian density = kinematic->position_density();
       mass = view_.mass(density);
       if (mass > 0 && eye_) mass *= clear_of_walls(density);
