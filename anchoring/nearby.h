@@ -21,7 +21,7 @@ class Nearby {
   const Background& background_;
   ScratchVector<std::pair<double, int>> by_x_;  // position and number, ascending
   ScratchVector<int> naming_, all_, found_;
-  double widest_ = 0;  // trace of a detection's covariance, the largest
+  double widest_ = 0;  // variance of a detection along x, the largest, m^2
 };
 
 }  // namespace anchord

@@ -8,15 +8,14 @@
 namespace anchord::bench {
 namespace {
 
-constexpr double kLength = 6, kWidth = 5, kTop = 2;  // m, of a room; things stand up to kTop
+constexpr double kLength = 6, kWidth = 5, kTop = 2;  // m, of a room about; things stand up to kTop
+constexpr double kDetected = 0.9;                    // as the configuration says
 constexpr double kRange = 6, kOpening = std::numbers::pi / 2;
-constexpr double kInView = 100;
-constexpr double kPerM2 = kInView / (kOpening / 2 * kRange * kRange);
+constexpr double kPerM2 = 100 / kDetected / (kOpening / 2 * kRange * kRange);
 constexpr double kStep = 0.1;       // m
 constexpr Utime kPeriod = 200'000;  // us
 constexpr double kNoise = 0.02;     // m, standard deviation along each axis
 constexpr double kCertain = 0.9;    // of a reported symbol, which is the true one
-constexpr double kDetected = 0.9;   // as the configuration says
 constexpr double kEye = 1.2;        // m, above the floor
 /// Shares of the classes: book, box, chair, cup, folder, plant.
 constexpr std::array<double, 6> kShare{0.4, 0.2, 0.03, 0.12, 0.2, 0.05};
@@ -29,16 +28,19 @@ SymbolReport report(const std::vector<std::string>& symbols, int symbol) {
 
 Building::Building(int things, const Knowledge& classes, std::uint64_t seed)
     : knowledge_(classes), dice_(seed) {
-  const double rooms = std::ceil(things / (kPerM2 * kLength * kWidth));
+  const double rooms = things / (kPerM2 * kLength * kWidth);
   columns_ = static_cast<int>(std::ceil(std::sqrt(rooms * kWidth / kLength)));
   rows_ = static_cast<int>(std::ceil(rooms / columns_));
-  knowledge_.bounds_max.head<2>() = Eigen::Vector2d(columns_ * kLength, rows_ * kWidth);
+  const double scale = std::sqrt(rooms / this->rooms());
+  length_ = scale * kLength;
+  width_ = scale * kWidth;
+  knowledge_.bounds_max.head<2>() = Eigen::Vector2d(columns_ * length_, rows_ * width_);
   things_.resize(this->rooms());
   for (int i = 0; i < things; ++i) {
     const auto room = static_cast<int>(static_cast<long>(i) * this->rooms() / things);
     Thing thing{};
-    thing.position = {(room % columns_ + dice_.uniform(0, 1)) * kLength,
-                      (room / columns_ + dice_.uniform(0, 1)) * kWidth, dice_.uniform(0, kTop)};
+    thing.position = {(room % columns_ + dice_.uniform(0, 1)) * length_,
+                      (room / columns_ + dice_.uniform(0, 1)) * width_, dice_.uniform(0, kTop)};
     double left = dice_.uniform(0, 1);
     while (thing.what + 1 < static_cast<int>(kShare.size()) && left >= kShare[thing.what])
       left -= kShare[thing.what++];
@@ -64,24 +66,24 @@ Frame Building::inspect(int room) {
   Frame frame;
   frame.utime = now_ += kPeriod;
   frame.sensor = "camera";
-  const double x = room % columns_ * kLength, y = room / columns_ * kWidth;
+  const double x = room % columns_ * length_, y = room / columns_ * width_;
   View view;
   view.type = View::Type::kPolygon;
-  view.points = {{x, y}, {x + kLength, y}, {x + kLength, y + kWidth}, {x, y + kWidth}};
+  view.points = {{x, y}, {x + length_, y}, {x + length_, y + width_}, {x, y + width_}};
   frame.view = view;
   for (const Thing& thing : things_[room]) frame.detections.push_back(detect(thing));
   return frame;
 }
 
-/// Lane by lane, there and back, one lane along the middle of each row of rooms.
+/// Lane by lane, there and back, between two rows of rooms; the view stays inside.
 Pose Building::pose(int step) const {
-  const double lane = columns_ * kLength;
-  const double way = std::fmod(step * kStep, lane * rows_);
+  const double length = columns_ * length_, lane = length - kRange;
+  const double way = std::fmod(step * kStep, lane * (rows_ - 1));
   const int row = static_cast<int>(way / lane);
   const bool back = row % 2 == 1;
   const double along = way - row * lane;
   Pose pose;
-  pose.position = {back ? lane - along : along, (row + 0.5) * kWidth, kEye};
+  pose.position = {back ? length - along : along, (row + 1) * width_, kEye};
   if (back) pose.orientation = {0, 0, 0, 1};
   return pose;
 }
@@ -106,7 +108,7 @@ Frame Building::look(int step) {
     frame.detections.push_back(detect(seen));
   };
   for (const auto& room : things_)
-    if (!room.empty() && (room[0].position - eye).head<2>().norm() < kRange + kLength + kWidth)
+    if (!room.empty() && (room[0].position - eye).head<2>().norm() < kRange + length_ + width_)
       for (const Thing& thing : room)
         if (dice_.chance(kDetected)) see(thing);
   // One that is nothing, on average 10^-2 per m^3 as the configuration says, somewhere ahead.

@@ -7,9 +7,10 @@
 
 namespace anchord::bench {
 
-/// A building of rooms of 6 x 5 m, about as wide as long, with things at rest in it, evenly spread
-/// from the floor to 2 m. A robot drives through it along straight lanes and looks ahead, 6 m far
-/// and 90 degrees wide: it has 100 things in view. Nothing hides another; walls are left out.
+/// A building of rooms of about 6 x 5 m, about as wide as long, with things at rest in it, evenly
+/// spread from the floor to 2 m. A robot drives through it along straight lanes and looks ahead, 6
+/// m far and 90 degrees wide: it reports 100 things at once. Nothing hides another; walls are left
+/// out.
 class Building {
  public:
   Building(int things, const Knowledge& classes, std::uint64_t seed);
@@ -35,6 +36,7 @@ class Building {
   Knowledge knowledge_;
   Dice dice_;
   int columns_ = 0, rows_ = 0;
+  double length_ = 0, width_ = 0;           // of a room, m
   std::vector<std::vector<Thing>> things_;  // by room
   Utime now_ = 1'700'000'000'000'000;
 };
