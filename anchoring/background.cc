@@ -153,15 +153,17 @@ Background::Background(Knowledge k)
 
 /// Those that a behaviour model looks for objects in have bits of their own, as far as they go.
 void Background::number_places() {
-  constexpr int kBits = 64;
-  const std::uint64_t others = std::uint64_t{1} << (kBits - 1);
-  for (const auto& footprint : footprints_) bits_[footprint.get()] = others;
-  int next = 0;
+  constexpr std::size_t kBits = 64;
   for (const ObjectClass& c : knowledge.classes)
     for (const BehaviourModel& model : c.models) {
-      std::uint64_t& bit = bits_[footprint(model.place).get()];
-      if (!model.tracked() && bit == others && next < kBits - 1) bit = std::uint64_t{1} << next++;
+      const Footprint* place = footprint(model.place).get();
+      if (!model.tracked() && !model.implied &&
+          std::find(searched_.begin(), searched_.end(), place) == searched_.end())
+        searched_.push_back(place);
     }
+  for (const auto& place : footprints_) bits_[place.get()] = std::uint64_t{1} << (kBits - 1);
+  for (std::size_t i = 0; i < std::min(searched_.size(), kBits - 1); ++i)
+    bits_[searched_[i]] = std::uint64_t{1} << i;
 }
 
 std::uint64_t Background::places_in(const std::array<double, 4>& box) const {

@@ -64,6 +64,8 @@ struct Background {
   const std::vector<double>& overlap_any(const Footprint& footprint) const {
     return overlaps_any_.at(&footprint);
   }
+  /// The footprints that a behaviour model of some class goes to, each once.
+  const std::vector<const Footprint*>& searched() const { return searched_; }
   /// A bit that stands for the place (or the bounds) of one of these footprints; where there are
   /// too many places, for others too.
   std::uint64_t bit_of(const Footprint& footprint) const { return bits_.at(&footprint); }
@@ -88,6 +90,7 @@ struct Background {
   std::vector<std::shared_ptr<const Footprint>> footprints_;
   std::map<const Footprint*, std::vector<std::vector<double>>> overlaps_;
   std::map<const Footprint*, std::vector<double>> overlaps_any_;
+  std::vector<const Footprint*> searched_;
   std::map<const Footprint*, std::uint64_t> bits_;
   bool places_nest_ = true;
 

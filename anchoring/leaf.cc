@@ -79,14 +79,23 @@ struct PositionFit {
   bool in_gate = false;
 };
 
-PositionFit position_fit(const ModelState& state, const Gaussian& z, const Background& background) {
+/// How much of a detection lies in a place.
+double mass_in(const Footprint& place, const MapDetection& z, int dims) {
+  for (const auto& [known, share] : z.in_places)
+    if (known == &place) return share;
+  return mass(z.position, place.region, dims);
+}
+
+PositionFit position_fit(const ModelState& state, const MapDetection& detection,
+                         const Background& background) {
+  const Gaussian& z = detection.position;
   const double gate = background.knowledge.limits.gate_probability;
   if (const auto* kinematic = std::get_if<Kinematic>(&state.density)) {
     const Fit f = fit(*kinematic, z, background.dims);
     return {f.log_likelihood, f.distance2 <= background.gate_distance2};
   }
   const auto& somewhere = std::get<Somewhere>(state.density);
-  const double uniform = mass(z, somewhere.footprint()->region, background.dims);
+  const double uniform = mass_in(*somewhere.footprint(), detection, background.dims);
   return {uniform > 0 ? std::log(somewhere.likelihood(z, uniform)) : kLogZero, uniform > 1 - gate};
 }
 
@@ -196,7 +205,7 @@ double log_likelihood(const Leaf& leaf, const MapDetection& z,
   double log_position = kLogZero;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     if (!counts(m)) continue;
-    const PositionFit f = position_fit(leaf.models[m], z.position, background);
+    const PositionFit f = position_fit(leaf.models[m], z, background);
     log_position = log_add(log_position, std::log(leaf.models[m].weight) + f.log_likelihood);
     in_gate = in_gate || (f.in_gate && gates(m));
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/conversion.h"
+#include "geometry/gaussian_mass.h"
 
 namespace anchord {
 namespace {
@@ -139,6 +140,8 @@ Result<MapDetection> place_detection(const Detection& from, const Frame& frame,
     to.yaw = yaw_in_map(*from.yaw, frame.pose);
   }
   to.object = from.object;
+  for (const Footprint* place : background.searched())
+    to.in_places.emplace_back(place, mass(to.position, place->region, background.dims));
   return to;
 }
 
