@@ -69,8 +69,7 @@ class MapView {
   double polygon_share(const Eigen::Vector3d& box_min, const Eigen::Vector3d& box_max) const;
   Clearance clearance(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance,
                       const Depth& at_mean, double sphere) const;
-  double flat_mass(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance,
-                   double range_max) const;
+  double flat_mass(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance) const;
   double solid_mass(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance,
                     bool any_range) const;
 

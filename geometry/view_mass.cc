@@ -18,26 +18,27 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
-/// A limit further from the mean than so many standard deviations does not cut (mass 1e-14).
-constexpr double kClear = 8;
+/// A limit further from the mean than so many standard deviations does not cut (mass 6e-8 each).
+constexpr double kClear = 5.3;
+/// What is further outside of one is outside of all (mass 5e-7).
+constexpr double kOutside = 4.9;
+/// Along a ray, beyond so many standard deviations there is nothing (1e-15).
+constexpr double kEnd = 8;
 /// Directions further than this from the mean, in standard deviations, hold nothing (mass 1e-7).
 constexpr double kReach = 5.7;
 constexpr double kTolerance = 3e-7;
-/// Heights below this share of a range make the ground it reaches a disc.
-constexpr double kFlat = 0.1;
 const double kRootTwoPi = std::sqrt(2 * kPi);
 
 /// The integral of s^n exp(-(s - m)^2 / 2) from a to b needs, with t = s - m: e^(-t^2/2) at the
-/// ends, and the integral of that. What is beyond kClear is left out; most rays have but one end.
+/// ends, and the integral of that. What is beyond kEnd is left out; most rays have but one end.
 struct RayPart {
   double at_start = 0, at_end = 0, between = 0;
 
   RayPart(double t0, double t1) {
-    if (t0 >= kClear || t1 <= -kClear) return;
+    if (t0 >= kEnd || t1 <= -kEnd) return;
     double start = 2, end = 0;  // erfc
-    if (t0 > -kClear)
-      at_start = std::exp(-t0 * t0 / 2), start = std::erfc(t0 / std::numbers::sqrt2);
-    if (t1 < kClear) at_end = std::exp(-t1 * t1 / 2), end = std::erfc(t1 / std::numbers::sqrt2);
+    if (t0 > -kEnd) at_start = std::exp(-t0 * t0 / 2), start = std::erfc(t0 / std::numbers::sqrt2);
+    if (t1 < kEnd) at_end = std::exp(-t1 * t1 / 2), end = std::erfc(t1 / std::numbers::sqrt2);
     between = kRootTwoPi / 2 * (start - end);
   }
 };
@@ -113,24 +114,24 @@ double wedge_moment(const WhitePlane& plane, const Vector2d& c, double first, do
 MapView::Clearance MapView::clearance(const Vector3d& mean, const Matrix3d& covariance,
                                       const Depth& at_mean, double sphere) const {
   const auto deviation = [&](const Vector3d& normal) {
-    return kClear * std::sqrt(std::max(normal.dot(covariance * normal), 0.0));
+    return std::sqrt(std::max(normal.dot(covariance * normal), 0.0));
   };
   Clearance clear{at_mean.range >= sphere, at_mean.bearing >= sphere, at_mean.elevation >= sphere,
                   false};
   if (!clear.range) {
     const double distance = mean.norm();
-    const double radial = deviation(mean / std::max(distance, 1e-12));
+    const double sigma = deviation(mean / std::max(distance, 1e-12)), radial = kClear * sigma;
     const double across = std::max(sphere * sphere - radial * radial, 0.0);
     const double farthest = std::sqrt((distance + radial) * (distance + radial) + across);
     clear.range = farthest <= range_max_ && (range_min_ == 0 || distance - radial >= range_min_);
-    clear.outside = distance - radial >= range_max_;
+    clear.outside = distance - kOutside * sigma >= range_max_;
   }
   if (!clear.bearing) {
     bool inside[2], outside[2];
     for (int i = 0; i < 2; ++i) {
-      const double depth = bearing_normal_[i].dot(mean), spread = deviation(bearing_normal_[i]);
-      inside[i] = depth >= spread;
-      outside[i] = depth <= -spread;
+      const double depth = bearing_normal_[i].dot(mean), sigma = deviation(bearing_normal_[i]);
+      inside[i] = depth >= kClear * sigma;
+      outside[i] = depth <= -kOutside * sigma;
     }
     const bool narrow = bearing_width_ <= kPi;
     clear.bearing = narrow ? inside[0] && inside[1] : inside[0] || inside[1];
@@ -146,9 +147,10 @@ MapView::Clearance MapView::clearance(const Vector3d& mean, const Matrix3d& cova
       // A cone's outside is convex on one side of the horizon and its inside on the other; there
       // the plane that touches it bounds what lies beyond.
       const double depth = normal.dot(Vector2d(flat, mean.z()));
-      const double spread = deviation(normal.x() * outward + Vector3d(0, 0, normal.y()));
-      clear.elevation &= depth >= sphere || ((planes || normal.x() >= 0) && depth >= spread);
-      clear.outside |= (planes || normal.x() <= 0) && depth <= -spread;
+      const double sigma = deviation(normal.x() * outward + Vector3d(0, 0, normal.y()));
+      clear.elevation &=
+          depth >= sphere || ((planes || normal.x() >= 0) && depth >= kClear * sigma);
+      clear.outside |= (planes || normal.x() <= 0) && depth <= -kOutside * sigma;
     };
     if (has_floor_) test(floor_normal_);
     if (has_ceiling_) test(ceiling_normal_);
@@ -176,21 +178,13 @@ double MapView::mass(const Gaussian& density) const {
   if (clear.range && clear.bearing && type_ == View::Type::kFrustum)
     return wedge_mass({mean.x(), mean.z()}, covariance({0, 2}, {0, 2}), elevation_min_,
                       elevation_max_ - elevation_min_);
-  if (dims_ == 3 && clear.elevation && type_ != View::Type::kFrustum && !clear.range) {
-    // Heights matter only to how far a range reaches over the ground, a little less the higher.
-    const double height2 = mean.z() * mean.z() + covariance(2, 2);
-    if (height2 < kFlat * kFlat * range_max_ * range_max_ && range_min_ == 0)
-      return std::clamp(
-          flat_mass(mean.head<2>(), flat, std::sqrt(range_max_ * range_max_ - height2)), 0.0, 1.0);
-  }
-  const double sum = dims_ == 2 ? flat_mass(mean.head<2>(), flat, range_max_)
+  const double sum = dims_ == 2 ? flat_mass(mean.head<2>(), flat)
                                 : solid_mass(mean, covariance, clear.range);
   return std::clamp(sum, 0.0, 1.0);
 }
 
 /// 2-D: over directions, with the integral of s N along each.
-double MapView::flat_mass(const Vector2d& mean, const Matrix2d& covariance,
-                          double range_max) const {
+double MapView::flat_mass(const Vector2d& mean, const Matrix2d& covariance) const {
   const Matrix2d factor = upper_factor<2>(covariance);
   const WhitePlane plane(factor, solve_upper(factor, mean));
   const auto ray = [&](double theta) {
@@ -198,7 +192,7 @@ double MapView::flat_mass(const Vector2d& mean, const Matrix2d& covariance,
     const double stretch = (plane.factor * v).norm();
     const double off = v.x() * plane.mean.y() - v.y() * plane.mean.x();
     return std::exp(-off * off / 2) / (2 * kPi) *
-           first_moment(v.dot(plane.mean), range_min_ / stretch, range_max / stretch);
+           first_moment(v.dot(plane.mean), range_min_ / stretch, range_max_ / stretch);
   };
   return integrate_around(ray, plane.direction_of(bearing_from_),
                           plane.direction_of(bearing_from_ + bearing_width_), plane.peak,
@@ -214,6 +208,7 @@ double MapView::solid_mass(const Vector3d& mean, const Matrix3d& covariance, boo
   const WhitePlane ground(flat_factor, solve_upper(flat_factor, mean.head<2>()));
   const double scale = whiten.determinant() * flat_factor.determinant() / (2 * kPi * kRootTwoPi);
   const double inner_tolerance = kTolerance / (2 * ground.reach);
+  const double least = 0.1 * inner_tolerance;
 
   const auto half_plane = [&](double ground_theta) {
     Vector2d forward = flat_factor * Vector2d(std::cos(ground_theta), std::sin(ground_theta));
@@ -224,13 +219,16 @@ double MapView::solid_mass(const Vector3d& mean, const Matrix3d& covariance, boo
     const Vector3d normal = white_forward.cross(white_up);
     const double area = normal.norm(), length = white_forward.norm();
     const double off = white_mean.dot(normal) / area;
-    if (std::abs(off) > 2 * kReach) return 0.0;
     const Vector3d axis_x = white_forward / length, axis_y = normal.cross(axis_x) / area;
     // Within it: a white plane of its own; unfold is the inverse of its whitening.
     Matrix2d fold, unfold;
     fold << length, axis_x.dot(white_up), 0, area / length;
     unfold << 1 / length, -fold(0, 1) / area, 0, length / area;
     const WhitePlane plane(unfold, {white_mean.dot(axis_x), white_mean.dot(axis_y)});
+    const double jacobian = scale * std::exp(-off * off / 2) / (area * stretch * stretch);
+    // All that the half-plane may hold: its points' distance from the z axis is unfold.row(0) p.
+    const double outward = std::abs(unfold.row(0).dot(plane.mean)) + unfold.row(0).norm();
+    if (2 * kPi * jacobian * outward < least) return 0.0;
     const auto direction_of = [&](const Vector2d& direction) {
       const Vector2d v = fold * direction;
       return std::atan2(v.y(), v.x());
@@ -250,8 +248,8 @@ double MapView::solid_mass(const Vector3d& mean, const Matrix3d& covariance, boo
       return along_ray.x() * std::exp(-aside * aside / 2) *
              second_moment(v.dot(plane.mean), range_min_ / reach, range_max_ / reach);
     };
-    const double jacobian = scale * std::exp(-off * off / 2) / (area * stretch * stretch);
-    if (any_range)
+    const double farthest = (unfold * plane.mean).norm() + kClear * unfold.norm();
+    if (any_range || (range_min_ == 0 && farthest <= range_max_))
       return jacobian * wedge_moment(plane, unfold.row(0), direction_of(low), direction_of(high));
     return jacobian * integrate_around(ray, direction_of(low), direction_of(high), plane.peak,
                                        plane.reach, inner_tolerance / jacobian, 12);
