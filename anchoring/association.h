@@ -72,8 +72,8 @@ class Concern {
   bool names(const Cluster& cluster) const;
 
   Utime utime_;
-  bool everything_;              ///< no gate
-  std::vector<Window> windows_;  ///< of the view, and of the detections
+  bool everything_;                        ///< no gate
+  SmallScratchVector<Window, 2> windows_;  ///< of the view, and of the detections
   std::vector<std::string> named_;
 };
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "anchoring/belief.h"
+#include "core/scratch.h"
 
 namespace anchord {
 namespace {
@@ -13,7 +15,7 @@ namespace {
 /// chunk's reach: of 16 to 256, 64 was fastest with 100,000 anchors.
 constexpr std::size_t kMost = 64;
 
-using Entries = std::vector<Clusters::Entry>;
+using Entries = PoolVector<Clusters::Entry>;
 
 double centre(const Reach& reach, int axis) {
   return 0.5 * (reach.axis[axis].low + reach.axis[axis].high);
@@ -30,8 +32,7 @@ void make_chunks(Entries entries, Clusters::Chunks& out) {
   if (entries.empty()) return;
   const Reach reach = of_all(entries);
   if (entries.size() <= kMost) {
-    out.push_back(
-        std::make_shared<const Clusters::Chunk>(Clusters::Chunk{std::move(entries), reach}));
+    out.push_back(make_pooled<const Clusters::Chunk>(Clusters::Chunk{std::move(entries), reach}));
     return;
   }
   const auto length = [&](int axis) { return reach.axis[axis].high - reach.axis[axis].low; };
@@ -69,7 +70,7 @@ Clusters::Place Clusters::place_of(std::size_t index) const {
 }
 
 /// The chunk that something belongs to: one of the `first` that it lies in, else the nearest.
-std::size_t Clusters::home_of(const Reach& reach, const std::vector<std::size_t>& first) const {
+std::size_t Clusters::home_of(const Reach& reach, std::span<const std::size_t> first) const {
   for (const std::size_t c : first)
     if (distance2(reach, chunks_[c]->reach) == 0) return c;
   std::size_t home = 0;
@@ -79,21 +80,28 @@ std::size_t Clusters::home_of(const Reach& reach, const std::vector<std::size_t>
   return home;
 }
 
-void Clusters::exchange(const std::vector<Place>& gone, const std::vector<Pointer>& come,
+void Clusters::exchange(std::span<const Place> gone, std::span<const Pointer> come,
                         const Background& background) {
+  const Scratch scratch;
   size_ = size_ + come.size() - gone.size();
-  std::vector<std::size_t> changed;  // chunks, ascending
+  ScratchVector<std::size_t> changed;  // chunks, ascending
   for (const Place& at : gone)
     if (changed.empty() || changed.back() != at.chunk) changed.push_back(at.chunk);
-  std::vector<std::pair<std::size_t, Entry>> added;  // chunk and what goes there
+  struct Added {
+    std::size_t home, order;
+    Entry entry;
+    bool operator<(const Added& o) const {
+      return std::tie(home, order) < std::tie(o.home, o.order);
+    }
+  };
+  ScratchVector<Added> added;
   for (const Pointer& cluster : come) {
     Entry entry{cluster, Reach::of(*cluster, background)};
     const std::size_t home = home_of(entry.reach, changed);
-    added.emplace_back(home, std::move(entry));
+    added.push_back({home, added.size(), std::move(entry)});
   }
-  std::stable_sort(added.begin(), added.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [home, entry] : added) changed.push_back(home);
+  std::sort(added.begin(), added.end());
+  for (const Added& one : added) changed.push_back(one.home);
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
 
@@ -118,7 +126,7 @@ void Clusters::exchange(const std::vector<Place>& gone, const std::vector<Pointe
           entries.push_back(old[e]);
       }
     }
-    for (; in != added.end() && in->first == c; ++in) entries.push_back(std::move(in->second));
+    for (; in != added.end() && in->home == c; ++in) entries.push_back(std::move(in->entry));
     make_chunks(std::move(entries), chunks);
     kept = c + 1;
   }
@@ -127,7 +135,7 @@ void Clusters::exchange(const std::vector<Place>& gone, const std::vector<Pointe
 }
 
 void Clusters::add(Pointer cluster, const Background& background) {
-  exchange({}, {std::move(cluster)}, background);
+  exchange({}, {&cluster, 1}, background);
 }
 
 void Clusters::erase(std::size_t index) {
@@ -138,7 +146,7 @@ void Clusters::erase(std::size_t index) {
   if (entries.empty())
     chunks_.erase(chunk);
   else
-    *chunk = std::make_shared<const Chunk>(Chunk{entries, of_all(entries)});
+    *chunk = make_pooled<const Chunk>(Chunk{entries, of_all(entries)});
   --size_;
 }
 
@@ -146,7 +154,7 @@ void Clusters::replace(std::size_t index, Pointer cluster, const Background& bac
   const Place at = place_of(index);
   Entries entries = chunks_[at.chunk]->entries;
   entries[at.entry] = {cluster, Reach::of(*cluster, background)};
-  chunks_[at.chunk] = std::make_shared<const Chunk>(Chunk{entries, of_all(entries)});
+  chunks_[at.chunk] = make_pooled<const Chunk>(Chunk{entries, of_all(entries)});
 }
 
 }  // namespace anchord

@@ -3,10 +3,11 @@
 #include <cstddef>
 #include <iterator>
 #include <memory>
+#include <span>
 #include <type_traits>
-#include <vector>
 
 #include "anchoring/reach.h"
+#include "core/pool.h"
 
 namespace anchord {
 
@@ -22,10 +23,10 @@ class Clusters {
     Reach reach;
   };
   struct Chunk {
-    std::vector<Entry> entries;
+    PoolVector<Entry> entries;
     Reach reach;  ///< of them all
   };
-  using Chunks = std::vector<std::shared_ptr<const Chunk>>;
+  using Chunks = PoolVector<std::shared_ptr<const Chunk>>;
 
   class const_iterator {
    public:
@@ -80,7 +81,7 @@ class Clusters {
   }
 
   /// Takes out the clusters in those places (in order) and puts in others, each near where it is.
-  void exchange(const std::vector<Place>& gone, const std::vector<Pointer>& come,
+  void exchange(std::span<const Place> gone, std::span<const Pointer> come,
                 const Background& background);
 
   /// As with a vector, but for where what is added comes to stand.
@@ -97,7 +98,7 @@ class Clusters {
       return may_meet(entry.reach);
   }
   Place place_of(std::size_t index) const;
-  std::size_t home_of(const Reach& reach, const std::vector<std::size_t>& first) const;
+  std::size_t home_of(const Reach& reach, std::span<const std::size_t> first) const;
 
   Chunks chunks_;  ///< none of them empty
   std::size_t size_ = 0;

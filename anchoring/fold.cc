@@ -163,7 +163,7 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   belief.effort = {};
   const Concern concern(frame, background);
   ScratchVector<PredictedCluster> touched;
-  std::vector<Clusters::Place> gone;
+  ScratchVector<Clusters::Place> gone;
   belief.clusters.visit(concern, [&](Clusters::Place place, const auto& cluster) {
     auto predicted = predict(cluster, frame, from, visibility, occlusion, nearby, background);
     for (const auto& leaves : predicted.leaves) belief.effort.work += leaves.size();
@@ -181,7 +181,7 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   const ScratchVector<Group> groups =
       couple(std::move(touched), static_cast<int>(detections), negligible);
 
-  std::vector<std::shared_ptr<const Cluster>> made;
+  ScratchVector<std::shared_ptr<const Cluster>> made;
   double log_evidence = -frame.sensor->clutter_density * visibility.volume();
   std::optional<std::uint64_t> left = frame.work;
   if (left) *left -= std::min(*left, belief.effort.work);

@@ -13,7 +13,7 @@ bool deserves_name(const Cluster& cluster, int anchor) {
 
 }  // namespace
 
-void name_anchors(std::vector<std::shared_ptr<const Cluster>>& clusters, Belief& belief,
+void name_anchors(std::span<std::shared_ptr<const Cluster>> clusters, Belief& belief,
                   const Background& background) {
   struct Unnamed {
     std::size_t cluster;

@@ -1,0 +1,67 @@
+// A warm engine asks the system for next to no memory.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+#include <random>
+
+#include "anchoring/association.h"
+#include "core/scratch.h"
+#include "tests/anchoring/dice.h"
+#include "tests/anchoring/small_world.h"
+
+namespace {
+std::size_t allocations = 0;
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace anchord {
+namespace {
+
+/// Like objects at rest in two groups, some missed, with clutter now and then.
+Frame crowded(int step, enumeration::Dice& dice) {
+  std::vector<Detection> detections;
+  for (int object = 0; object < 12; ++object)
+    if (dice.chance(0.9))
+      detections.push_back(at(1 + 2 * (object / 6) + 0.2 * (object % 6) + 0.05 * dice.normal(),
+                              1 + 0.05 * dice.normal(), 0.0025));
+  if (dice.chance(0.3)) detections.push_back(at(dice.uniform(0, 6), dice.uniform(0, 4), 0.0025));
+  return frame(0.1 * step, detections);
+}
+
+TEST(Allocation, AWarmEngineAsksTheSystemForNextToNone) {
+#ifdef ANCHORD_SANITIZED
+  GTEST_SKIP() << "with the sanitizer nothing is kept to be used again";
+#endif
+  std::mt19937_64 random(1);
+  enumeration::Dice dice(random);
+  const Background background(small_world());
+  World empty(small_world());
+  Belief belief = *empty.belief();
+  std::size_t warm = 0, cold = 0;
+  double hypotheses = 0;
+  for (int step = 0; step < 300; ++step) {
+    const MapFrame frame = place_in_map(crowded(step, dice), background).value();
+    const Visibility visibility(frame.view, frame.eye, background);
+    const std::size_t before = allocations;
+    fold(belief, frame, visibility, background);
+    (step < 100 ? cold : warm) += allocations - before;
+    for (const auto& cluster : belief.clusters)
+      hypotheses += static_cast<double>(cluster->hypotheses.size()) / 300;
+  }
+  EXPECT_GT(hypotheses, 20) << "the scene must be work";
+  EXPECT_GT(cold, 100u) << "the count must count";
+  // Now and then there is more of something than ever before, or a name for what is new.
+  EXPECT_LT(warm, 200u / 2) << "in 200 frames";
+}
+
+}  // namespace
+}  // namespace anchord
