@@ -5,6 +5,7 @@
 
 #include "anchoring/cluster.h"
 #include "anchoring/reduction.h"
+#include "anchoring/shared_detection.h"
 #include "anchoring/twins.h"
 #include "core/log_probability.h"
 #include "mht/ranked_associations.h"
@@ -131,12 +132,15 @@ class Children {
 
  private:
   void become(Leaf& child, const PredictedLeaf& parent, int z) const {
+    int given = z == kMiss ? kMiss : detections_[z];
+    if (z == kMiss && background_.shares)
+      given = draw_to_hosts(child, frame_, parent.shown, background_);
     const auto depth = static_cast<std::uint64_t>(background_.knowledge.limits.scan_depth);
     if (depth > 0) {
       const auto old = [&](std::uint64_t r) { return (r >> 16) + depth <= frame_number_; };
       child.recent.erase(std::remove_if(child.recent.begin(), child.recent.end(), old),
                          child.recent.end());
-      if (z != kMiss) child.recent.push_back(frame_number_ << 16 | detections_[z]);
+      if (given != kMiss) child.recent.push_back(frame_number_ << 16 | given);
     }
     if (z == kMiss)
       give_nothing(child, parent.shown, visibility_, frame_.sensor->detection_probability,

@@ -59,8 +59,10 @@ Background::Dynamics dynamics_of(const ObjectClass& c) {
   }
   d.moves = d.rates.maxCoeff() > 0;
   for (const AttributeChange& change : c.changes) d.changes.push_back(chain_of(change));
-  while (!c.models[d.first_detectable].tracked() || !c.models[d.first_detectable].detectable)
-    ++d.first_detectable;
+  const auto is_found_in = [](const BehaviourModel& m) {
+    return m.tracked() && m.detectable && !m.shares();
+  };
+  while (!is_found_in(c.models[d.first_detectable])) ++d.first_detectable;
   return d;
 }
 
@@ -130,6 +132,8 @@ Background::Background(Knowledge k)
   for (const ObjectClass& c : knowledge.classes) {
     dynamics.push_back(dynamics_of(c));
     largest_extent = std::max(largest_extent, c.extent.norm());
+    shares = shares || std::any_of(c.models.begin(), c.models.end(),
+                                   [](const BehaviourModel& m) { return m.shares(); });
     arrivals.push_back(std::make_shared<ArrivalModel>(ArrivalModel{
         c.undetected_intensity, c.departure_rate, c.arrival_rate, concentrated(c, *this)}));
     moving_arrivals.push_back(

@@ -7,6 +7,7 @@
 #include "anchoring/budget.h"
 #include "anchoring/coupling.h"
 #include "anchoring/naming.h"
+#include "anchoring/shared_detection.h"
 #include "core/log_probability.h"
 
 namespace anchord {
@@ -60,7 +61,8 @@ ScratchVector<Origin> origins(const Belief& belief, const MapFrame& frame,
   const double time = belief.seconds(frame.utime);
   std::vector<MovingIntensity> moving = belief.moving;
   for (MovingIntensity& m : moving) m.advance(time);
-  for (const MapDetection& z : frame.detections) {
+  for (int i = 0; i < static_cast<int>(frame.detections.size()); ++i) {
+    const MapDetection& z = frame.detections[i];
     Origin origin;
     const int cell = background.cell_of(z.position.mean);
     for (int c = 0; c < background.classes(); ++c)
@@ -71,7 +73,7 @@ ScratchVector<Origin> origins(const Belief& belief, const MapFrame& frame,
       origin.terms[c] += frame.sensor->detection_probability[c] * moving[c].intensity(z.position) *
                          z.class_ratio[c];
     for (double term : origin.terms) origin.expected += term;
-    const double clutter = std::exp(z.log_clutter);
+    const double clutter = std::exp(z.log_clutter) + repeat_density(frame, i, background.dims);
     origin.existence = origin.expected / (clutter + origin.expected);
     if (!moving.empty() && origin.existence >= background.knowledge.limits.min_existence)
       origin.met = met_by(z, origin.terms, at_rest, *frame.sensor, moving, background);
@@ -96,6 +98,7 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
       predict(predicted.leaf, frame.utime, background);
       predicted.shown = visibility.of(predicted.leaf, frame.sensor->detection_probability,
                                       occlusion, cluster->anchors[a].anchor->birth);
+      if (background.shares) hide(predicted.leaf, frame, background, predicted.shown);
       predicted.log_miss = std::log1p(-predicted.leaf.existence * predicted.shown.q());
       out.shown = out.shown || predicted.shown.q() > 0;
       // Where two steps are not one long one, every frame must be a step.
@@ -182,7 +185,8 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
       couple(std::move(touched), static_cast<int>(detections), negligible);
 
   ScratchVector<std::shared_ptr<const Cluster>> made;
-  double log_evidence = -frame.sensor->clutter_density * visibility.volume();
+  double log_evidence = -frame.sensor->clutter_density * visibility.volume() -
+                        frame.sensor->double_detection * static_cast<double>(detections);
   std::optional<std::uint64_t> left = frame.work;
   if (left) *left -= std::min(*left, belief.effort.work);
   Budget budget(groups, left, background.knowledge.limits);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "anchoring/shared_detection.h"
 #include "core/log_probability.h"
 #include "geometry/gaussian_mass.h"
 
@@ -14,7 +15,9 @@ namespace {
 void move_density(ModelState& state, const BehaviourModel& model, double dt, int dims) {
   auto* kinematic = std::get_if<Kinematic>(&state.density);
   if (!kinematic) return;
-  if (model.kind == BehaviourModel::Kind::kConstantVelocity)
+  if (model.shares())
+    predict_shared(*kinematic, model, dt, dims);
+  else if (model.kind == BehaviourModel::Kind::kConstantVelocity)
     predict_constant_velocity(*kinematic, model.psd, dt, dims);
   else
     predict_constant_position(*kinematic, model.psd, dt, dims);
@@ -38,7 +41,8 @@ void flow(Leaf& leaf, double dt, const Background& background) {
       } else if (models[from].tracked()) {
         auto& density = std::get<Kinematic>(leaf.models[to].density);
         const Kinematic arriving =
-            as_model(std::get<Kinematic>(before[from].density), models[to], background.dims);
+            as_model(own_place(std::get<Kinematic>(before[from].density), models[from]), models[to],
+                     background.dims);
         density = weight > 0 ? merge(weight, density, entering, arriving) : arriving;
       }
       weight += entering;
@@ -127,6 +131,7 @@ double log_attribute_ratio(const Leaf& leaf, const AttributeEvidence& evidence,
 }  // namespace
 
 Kinematic as_model(Kinematic k, const BehaviourModel& model, int dims) {
+  if (model.shares()) return shared_place(k, model, dims);
   if (model.kind == BehaviourModel::Kind::kConstantPosition) {
     k.velocity.setZero();
     k.pv.setZero();
@@ -202,21 +207,32 @@ double log_likelihood(const Leaf& leaf, const MapDetection& z,
   if (!in_gate) return kLogZero;
 
   in_gate = !gated;
-  double log_position = kLogZero;
+  double log_alone = kLogZero, log_shared = kLogZero;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     if (!counts(m)) continue;
     const PositionFit f = position_fit(leaf.models[m], z, background);
-    log_position = log_add(log_position, std::log(leaf.models[m].weight) + f.log_likelihood);
+    const double log_weight = std::log(leaf.models[m].weight) + f.log_likelihood;
+    if (models[m].shares())
+      log_shared =
+          log_add(log_shared, log_weight + log_shared_ratio(leaf, z, models[m], background));
+    else
+      log_alone = log_add(log_alone, log_weight);
     in_gate = in_gate || (f.in_gate && gates(m));
   }
-  if (!in_gate || log_position == kLogZero) return kLogZero;
+  if (!in_gate || (log_alone == kLogZero && log_shared == kLogZero)) return kLogZero;
   double by_class = 0;
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
     by_class += leaf.classes[c] * detection_probability[c] * z.class_ratio[c];
-  double log_g = std::log(by_class) + log_position;
+  double log_g = std::log(by_class) + log_alone;
   for (const auto& evidence : z.attributes)
     log_g += log_attribute_ratio(leaf, evidence, background);
-  return log_g;
+  return log_shared == kLogZero ? log_g : log_add(log_g, std::log(by_class) + log_shared);
+}
+
+double log_attribute_ratio(const Leaf& leaf, const MapDetection& z, const Background& background) {
+  double sum = 0;
+  for (const auto& evidence : z.attributes) sum += log_attribute_ratio(leaf, evidence, background);
+  return sum;
 }
 
 }  // namespace anchord

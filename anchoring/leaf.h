@@ -72,6 +72,9 @@ double log_likelihood(const Leaf& leaf, const MapDetection& z,
                       const std::vector<double>& detection_probability, bool gated,
                       const Background& background);
 
+/// ln of what z's attributes other than the class are worth, the product of its L_A.
+double log_attribute_ratio(const Leaf& leaf, const MapDetection& z, const Background& background);
+
 /// A predicted leaf that is given z.
 void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Background& background);
 

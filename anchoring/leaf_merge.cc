@@ -2,15 +2,18 @@
 #include <cmath>
 
 #include "anchoring/leaf.h"
+#include "anchoring/shared_detection.h"
 
 namespace anchord {
 namespace {
 
-Kinematic moments(const ModelState& state, const BehaviourModel& target, int dims) {
+Kinematic moments(const ModelState& state, const BehaviourModel& from, const BehaviourModel& target,
+                  int dims) {
   const auto* somewhere = std::get_if<Somewhere>(&state.density);
-  return as_model(
-      somewhere ? kinematic_at(somewhere->moments(), 0, dims) : std::get<Kinematic>(state.density),
-      target, dims);
+  if (from.shares() && target.shares()) return std::get<Kinematic>(state.density);
+  return as_model(somewhere ? kinematic_at(somewhere->moments(), 0, dims)
+                            : own_place(std::get<Kinematic>(state.density), from),
+                  target, dims);
 }
 
 /// The model of the new class that takes the density of an old one: same kind and place, not
@@ -20,7 +23,7 @@ int heir(const BehaviourModel& old, const std::vector<BehaviourModel>& models,
          std::vector<char>& taken) {
   for (std::size_t m = 0; m < models.size(); ++m)
     if (!taken[m] && models[m].kind == old.kind && models[m].place == old.place &&
-        (old.implied || !models[m].implied)) {
+        models[m].shares() == old.shares() && (old.implied || !models[m].implied)) {
       taken[m] = 1;
       return static_cast<int>(m);
     }
@@ -34,10 +37,10 @@ int heir(const BehaviourModel& old, const std::vector<BehaviourModel>& models,
 
 /// Adds weight and density to a model that has `to.weight` of its own. `as_it_is`: a `somewhere`
 /// over the same place, or over one that an event has told.
-void take_over(ModelState& to, const ModelState& from, const BehaviourModel& model, bool as_it_is,
-               int dims) {
+void take_over(ModelState& to, const ModelState& from, const BehaviourModel& old,
+               const BehaviourModel& model, bool as_it_is, int dims) {
   if (model.tracked()) {
-    const Kinematic arriving = moments(from, model, dims);
+    const Kinematic arriving = moments(from, old, model, dims);
     auto& density = std::get<Kinematic>(to.density);
     if (to.weight > 0 && from.weight > 0)
       density = merge(to.weight, density, from.weight, arriving);
@@ -88,7 +91,8 @@ void follow_class(Leaf& leaf, const Background& background) {
   for (const auto& model : models) {
     if (model.implied && !lost) break;
     if (model.tracked())
-      leaf.models.push_back({0, moments(old[old_top], model, background.dims)});
+      leaf.models.push_back(
+          {0, moments(old[old_top], old_models[old_top], model, background.dims)});
     else
       leaf.models.push_back({0, Somewhere(background.footprint(model.place))});
   }
@@ -102,7 +106,7 @@ void follow_class(Leaf& leaf, const Background& background) {
                  place != background.footprint(old_models[m].place);
     }
     if (old[m].weight > 0 || taken[to])
-      take_over(leaf.models[to], old[m], models[to], as_it_is, background.dims);
+      take_over(leaf.models[to], old[m], old_models[m], models[to], as_it_is, background.dims);
   }
   leaf.model_class = top;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "anchoring/leaf.h"
+#include "anchoring/shared_detection.h"
 #include "anchoring/visibility.h"
 #include "core/log_probability.h"
 
@@ -45,40 +46,62 @@ void learn(AttributeBelief& belief, const AttributeEvidence& evidence,
   belief.variance *= 1 - gain;
 }
 
-void learn_attributes(Leaf& leaf, const MapDetection& z, const Background& background) {
+/// What is learned if the evidence is about this object, with probability `own`; by moments.
+void learn(AttributeBelief& belief, const AttributeEvidence& evidence, double own,
+           const Background& background) {
+  const AttributeBelief before = belief;
+  learn(belief, evidence, background);
+  for (std::size_t s = 0; s < belief.symbols.size(); ++s)
+    belief.symbols[s] = own * belief.symbols[s] + (1 - own) * before.symbols[s];
+  const double gap = belief.mean - before.mean;
+  belief.mean = before.mean + own * gap;
+  belief.variance =
+      own * belief.variance + (1 - own) * before.variance + own * (1 - own) * gap * gap;
+}
+
+/// `own`: the probability that what is reported is about this object alone. What it does not hold
+/// yet it takes where that is more probable than not.
+void learn_attributes(Leaf& leaf, const MapDetection& z, const Background& background,
+                      double own = 1) {
   for (const auto& evidence : z.attributes) {
     auto at = std::lower_bound(
         leaf.attributes.begin(), leaf.attributes.end(), evidence.attribute,
         [](const AttributeBelief& b, int attribute) { return b.attribute < attribute; });
-    if (at != leaf.attributes.end() && at->attribute == evidence.attribute)
+    const bool holds = at != leaf.attributes.end() && at->attribute == evidence.attribute;
+    if (holds && own < 1)
+      learn(*at, evidence, own, background);
+    else if (holds)
       learn(*at, evidence, background);
-    else
+    else if (own >= 0.5)
       leaf.attributes.insert(at, first_belief(evidence, background));
   }
 }
 
 /// Bayes over the behaviour models; what was somewhere has been found at z and joins the first
-/// tracked model.
-void update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
-                   const Background& background) {
+/// tracked model. Returns the probability that it did not share the detection.
+double update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
+                     const Background& background) {
   const int dims = background.dims;
   const auto& models = background.object_class(leaf.model_class).models;
   const int target = background.dynamics[leaf.model_class].first_detectable;
   boost::container::small_vector<double, 4> log_weight(leaf.models.size(), kLogZero);
+  const double log_own = background.shares ? log_attribute_ratio(leaf, z, background) : 0;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     ModelState& state = leaf.models[m];
     if (!models[m].detectable || state.weight <= 0) continue;
     if (auto* kinematic = std::get_if<Kinematic>(&state.density)) {
-      log_weight[m] = std::log(state.weight) + fit(*kinematic, z.position, dims).log_likelihood;
+      log_weight[m] =
+          std::log(state.weight) + fit(*kinematic, z.position, dims).log_likelihood +
+          (models[m].shares() ? log_shared_ratio(leaf, z, models[m], background) : log_own);
       update(*kinematic, z.position, dims);
       keep_above(*kinematic, sensor.pose_floor, dims);
     } else {
       log_weight[m] = std::log(state.weight) +
-                      std::log(std::get<Somewhere>(state.density).likelihood(z.position));
+                      std::log(std::get<Somewhere>(state.density).likelihood(z.position)) + log_own;
     }
   }
   const double total = log_sum(log_weight, [](double x) { return x; });
-  double found = 0;
+  double found = 0, shared = 0;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     double weight = std::exp(log_weight[m] - total);
     if (!models[m].tracked()) {
@@ -87,8 +110,9 @@ void update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
       leaf.models[m].density = Somewhere(background.footprint(models[m].place));
     }
     leaf.models[m].weight = weight;
+    if (models[m].shares()) shared += weight;
   }
-  if (found <= 0) return;
+  if (found <= 0) return 1 - shared;
   ModelState& home = leaf.models[target];
   const bool moving = models[target].kind == BehaviourModel::Kind::kConstantVelocity;
   Kinematic at_z =
@@ -97,6 +121,7 @@ void update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
   auto& density = std::get<Kinematic>(home.density);
   density = home.weight > 0 ? merge(home.weight, density, found, at_z) : at_z;
   home.weight += found;
+  return 1 - shared;
 }
 
 }  // namespace
@@ -104,11 +129,11 @@ void update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
 void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Background& background) {
   leaf.existence = 1;
   leaf.last_seen = leaf.utime;
-  update_models(leaf, z, sensor, background);
+  const double own = update_models(leaf, z, sensor, background);
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
     leaf.classes[c] *= sensor.detection_probability[c] * z.class_ratio[c];
   normalise(leaf.classes, background);
-  learn_attributes(leaf, z, background);
+  learn_attributes(leaf, z, background, own);
   if (z.yaw) leaf.yaw = z.yaw;
   follow_class(leaf, background);
 }
@@ -150,7 +175,8 @@ Leaf first_leaf(const MapDetection& z, std::span<const double> terms, double exi
     const Kinematic still = kinematic_at(
         z.position, moving ? model.initial_velocity_variance : ByAxis(), background.dims);
     leaf.models.push_back(
-        {model.initial_weight, met ? as_model(*met, model, background.dims) : still});
+        {model.initial_weight,
+         met || model.shares() ? as_model(met.value_or(still), model, background.dims) : still});
   }
   learn_attributes(leaf, z, background);
   leaf.yaw = z.yaw;

@@ -87,6 +87,12 @@ const Kinematic& position_of(const Leaf& leaf) {
   return std::get<Kinematic>(leaf.models[leaf.top_model()].density);
 }
 
+Eigen::Vector3d velocity_of(const Leaf& leaf, const Background& background) {
+  const auto& models = background.object_class(leaf.model_class).models;
+  if (models[leaf.top_model()].shares()) return Eigen::Vector3d::Zero();
+  return position_of(leaf).velocity;
+}
+
 Gaussian moments(const Leaf& leaf) {
   Gaussian sum;
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();

@@ -60,6 +60,8 @@ double match(const ObjectBelief& object, const Description& description,
 
 /// Position density of a leaf's best tracked model (most weight); what a best world shows.
 const Kinematic& position_of(const Leaf& leaf);
+/// How that moves, m/s; 0 where it shares a detection with others, whose motion says little.
+Eigen::Vector3d velocity_of(const Leaf& leaf, const Background& background);
 
 /// Moments of a leaf's whole density over position.
 Gaussian moments(const Leaf& leaf);

@@ -14,7 +14,7 @@ Json object_json(const ObjectBelief& object, const Background& background) {
            {"position", position_json(where.mean, background.dims)},
            {"covariance", covariance_json(where.covariance, background.dims)}};
   const Leaf* leaf = &object.shown();
-  out["velocity"] = position_json(position_of(*leaf).velocity, background.dims);
+  out["velocity"] = position_json(velocity_of(*leaf, background), background.dims);
   out["attributes"] = attributes_json(object, background);
   out["last_seen"] = object.last_seen();
   out["place"] = place_json(object.place(background), background);

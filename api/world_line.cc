@@ -16,7 +16,7 @@ Json object_json(const ObjectBelief& object, bool all, const Background& backgro
            {"p", object.p},
            {"position", position_json(position.position, dims)},
            {"covariance", covariance_json(position.pp, dims)},
-           {"velocity", position_json(position.velocity, dims)},
+           {"velocity", position_json(velocity_of(leaf, background), dims)},
            {"attributes", attributes_json(leaf, background)},
            {"models", models_json(leaf, background)},
            {"last_seen", leaf.last_seen}};

@@ -23,6 +23,7 @@ attribute_t attribute_message(const AttributeBelief& belief, const Attribute& at
 object_t object_message(const ObjectBelief& object, const Background& background) {
   const Leaf& leaf = object.versions[object.best].leaf;
   const Kinematic& where = position_of(leaf);
+  const Eigen::Vector3d velocity = velocity_of(leaf, background);
   object_t out{};
   out.id = object.anchor->id();
   out.p = object.p;
@@ -31,7 +32,7 @@ object_t object_message(const ObjectBelief& object, const Background& background
   out.class_p = leaf.classes[leaf.top_class()];
   for (int i = 0; i < 3; ++i) {
     out.position[i] = where.position[i];
-    out.velocity[i] = where.velocity[i];
+    out.velocity[i] = velocity[i];
     out.extent[i] = background.object_class(leaf.top_class()).extent[i];
     for (int j = 0; j < 3; ++j) out.covariance[3 * i + j] = where.pp(i, j);
   }

@@ -29,9 +29,17 @@ struct BehaviourModel {
   double rate = 0;                   ///< somewhere: 1/s at which every tracked model enters it
   double initial_weight = 0;  ///< in a new anchor; those of a class sum to 1, somewhere has 0
   bool detectable = true;
+  /// constant_position only: an object in it shares a detection with others that it touches; with
+  /// this probability one within reach hides it if it gives none itself. 0: it does not share.
+  double shared_probability = 0;
+  double reach = 0;  ///< m: how far from it along each axis such a detection is, one sigma
+  double stir = 0;   ///< 1/s at which that place among the others is forgotten
+  /// Index of a scalar in which such a detection exceeds each of its objects; -1: none.
+  int growing = -1;
   bool implied = false;  ///< somewhere: not configured; a leaf has it only after an event
 
   bool tracked() const { return kind != Kind::kSomewhere; }
+  bool shares() const { return shared_probability > 0; }
 };
 
 /// `constant_position`, `constant_velocity`, `somewhere`.
@@ -122,6 +130,7 @@ struct Sensor {
   std::array<double, 2> score_calibration{0, 1};
   double pose_floor = 0;  ///< m^2
   double identity_doubt = 0.01;
+  double double_detection = 0;  ///< how often it reports what it reports once more in one frame
   std::optional<Verification> verification;  ///< none: not used for tasks
 };
 

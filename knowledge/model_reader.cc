@@ -16,6 +16,25 @@ void read_by_axis(const JsonValue& value, const char* key, ByAxis& number) {
   number = {plane, vertical * plane};
 }
 
+void read_shared_detection(const JsonValue& value, const Knowledge& knowledge,
+                           BehaviourModel& model) {
+  const auto shared = value.find("shared_detection");
+  if (!shared || !shared->object_of({"probability", "reach", "stir", "size"})) return;
+  model.shared_probability = 0.99;
+  shared->read("probability", model.shared_probability, kBelowCertain);
+  if (!shared->find("reach")) shared->mistake_at(shared->path_of("reach"), "is missing");
+  shared->read("reach", model.reach, kPositive);
+  shared->read("stir", model.stir, kRate);
+  const auto size = shared->find("size");
+  if (!size) return;
+  std::vector<std::string> known;
+  for (const Attribute& attribute : knowledge.attributes) known.push_back(attribute.name);
+  model.growing = size->one_of(known, "attribute").value_or(-1);
+  if (model.growing < 0 || knowledge.attributes[model.growing].kind == Attribute::Kind::kScalar)
+    return;
+  size->mistake("must be a scalar attribute");
+}
+
 /// One model; `weighted` becomes true where it has an `initial_weight`.
 std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge& knowledge,
                                          bool& weighted) {
@@ -31,8 +50,10 @@ std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge
   BehaviourModel model = default_model(static_cast<BehaviourModel::Kind>(*index));
   switch (model.kind) {
     case BehaviourModel::Kind::kConstantPosition:
-      value.object_of({"kind", "position_psd", "vertical", "initial_weight", "detectable"});
+      value.object_of(
+          {"kind", "position_psd", "vertical", "initial_weight", "detectable", "shared_detection"});
       read_by_axis(value, "position_psd", model.psd);
+      read_shared_detection(value, knowledge, model);
       break;
     case BehaviourModel::Kind::kConstantVelocity:
       value.object_of({"kind", "acceleration_psd", "initial_velocity_variance", "vertical",
@@ -49,6 +70,7 @@ std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge
       break;
   }
   value.read("detectable", model.detectable);
+
   weighted = value.find("initial_weight").has_value();
   value.read("initial_weight", model.initial_weight, kNotNegative);
   return model;
@@ -102,9 +124,11 @@ std::vector<BehaviourModel> read_models(const JsonValue& value, const Knowledge&
   }
   if (!all_read) return models;
   if (std::none_of(models.begin(), models.end(), [](const BehaviourModel& model) {
-        return model.tracked() && model.detectable;
+        return model.tracked() && model.detectable && !model.shares();
       })) {
-    value.mistake("needs a constant_position or constant_velocity model that is detectable");
+    value.mistake(
+        "needs a constant_position or constant_velocity model that is detectable and shares no "
+        "detections");
   }
   weigh(value, weighted, models);
   return models;

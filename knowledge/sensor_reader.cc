@@ -119,7 +119,7 @@ void read_score_calibration(const JsonValue& value, Sensor& sensor) {
 Draft read_sensor(const JsonValue& value, Draft draft, const Knowledge& knowledge) {
   if (!value.object_of({"clutter_density", "detection_probability", "view", "noise", "prior",
                         "confusion", "score_calibration", "pose_floor", "identity_doubt",
-                        "verification"})) {
+                        "double_detection", "verification"})) {
     return draft;
   }
   Sensor& sensor = draft.sensor;
@@ -129,6 +129,7 @@ Draft read_sensor(const JsonValue& value, Draft draft, const Knowledge& knowledg
     read_score_calibration(*calibration, sensor);
   }
   value.read("identity_doubt", sensor.identity_doubt, kAboveImpossible);
+  value.read("double_detection", sensor.double_detection, kProbability);
   if (const auto p = value.find("detection_probability")) {
     read_detection_probability(*p, knowledge, draft);
   }

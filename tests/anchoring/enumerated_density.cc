@@ -205,7 +205,21 @@ Moments merge(double weight_a, const Moments& a, double weight_b, const Moments&
   return {mean, share * about_mean(a) + (1 - share) * about_mean(b)};
 }
 
+Moments alone(const Moments& state, const BehaviourModel& model, int dims) {
+  if (!model.shares()) return state;
+  Eigen::MatrixXd sum(dims, 2 * dims);
+  sum << Eigen::MatrixXd::Identity(dims, dims), Eigen::MatrixXd::Identity(dims, dims);
+  return {sum * state.mean, sum * state.covariance * sum.transpose()};
+}
+
 Moments fit(const Moments& state, const BehaviourModel& model, int dims) {
+  if (model.shares()) {
+    Moments result{Eigen::VectorXd::Zero(2 * dims), Eigen::MatrixXd::Zero(2 * dims, 2 * dims)};
+    result.mean.head(dims) = state.mean.head(dims);
+    const Eigen::MatrixXd apart = model.reach * model.reach * Eigen::MatrixXd::Identity(dims, dims);
+    result.covariance << state.covariance.topLeftCorner(dims, dims) + apart, -apart, -apart, apart;
+    return result;
+  }
   if (model.kind == BehaviourModel::Kind::kConstantPosition)
     return {state.mean.head(dims), state.covariance.topLeftCorner(dims, dims)};
   if (state.mean.size() == 2 * dims) return state;

@@ -76,6 +76,10 @@ Moments merge(double weight_a, const Moments& a, double weight_b, const Moments&
 /// with the model's initial velocity variance, for one that has one more than the state.
 Moments fit(const Moments& state, const BehaviourModel& model, int dims);
 
+/// An object's position alone, where a model that shares detections also holds how far its
+/// detections are from it.
+Moments alone(const Moments& state, const BehaviourModel& model, int dims);
+
 /// One behaviour model's share of an object. A model of weight 0 may have no moments.
 struct Density {
   double weight = 0;

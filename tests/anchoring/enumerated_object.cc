@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
+#include <utility>
 
 namespace anchord::enumeration {
 namespace {
@@ -25,11 +27,18 @@ int first(const std::vector<BehaviourModel>& models, Condition holds) {
 }
 bool is_tracked(const BehaviourModel& m) { return m.tracked(); }
 bool is_somewhere(const BehaviourModel& m) { return !m.tracked(); }
-bool can_be_found(const BehaviourModel& m) { return m.tracked() && m.detectable; }
+bool can_be_found(const BehaviourModel& m) { return m.tracked() && m.detectable && !m.shares(); }
 
 void move(Moments& state, const BehaviourModel& model, int dims, double dt) {
   if (model.kind == Kind::kConstantPosition) {
     for (int i = 0; i < dims; ++i) state.covariance(i, i) += model.psd[i] * dt;
+    if (!model.shares()) return;
+    Eigen::MatrixXd keep = Eigen::MatrixXd::Identity(2 * dims, 2 * dims);
+    const double kept = std::exp(-model.stir * dt);
+    keep.bottomRightCorner(dims, dims) *= kept;
+    state.mean = (keep * state.mean).eval();
+    state.covariance = (keep * state.covariance * keep).eval();
+    state.covariance.diagonal().tail(dims).array() += (1 - kept * kept) * model.reach * model.reach;
     return;
   }
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(dims, dims);
@@ -42,6 +51,12 @@ void move(Moments& state, const BehaviourModel& model, int dims, double dt) {
   state.covariance = (f * state.covariance * f.transpose() + q).eval();
 }
 
+double density_at(const Moments& state, const Measurement& z) {
+  const auto d = z.position.size();
+  return normal_density(z.position, state.mean.head(d),
+                        state.covariance.topLeftCorner(d, d) + z.covariance);
+}
+
 void correct(Moments& state, const Measurement& z, int dims) {
   const auto n = state.mean.size();
   const Eigen::MatrixXd h = Eigen::MatrixXd::Identity(dims, n);
@@ -50,6 +65,55 @@ void correct(Moments& state, const Measurement& z, int dims) {
   state.mean = (state.mean + gain * (z.position - h * state.mean)).eval();
   state.covariance = ((Eigen::MatrixXd::Identity(n, n) - gain * h) * state.covariance).eval();
   state.covariance = ((state.covariance + state.covariance.transpose()) / 2).eval();
+}
+
+/// What a detection's size says of an object: 1 everywhere where nothing is known.
+struct Sizes {
+  double larger = 1;   ///< the probability that it is 1.2 times larger
+  double alone = 1;    ///< its density if it is of such an object alone, over its reference
+  double at_best = 1;  ///< the most that can be
+};
+
+Sizes sizes(const Object& object, const BehaviourModel& model, const Measurement& z,
+            const Knowledge& knowledge) {
+  const auto held = object.scalars.find(model.growing);
+  const auto reported = z.scalar.find(model.growing);
+  if (held == object.scalars.end() || reported == z.scalar.end()) return {};
+  const ScalarReport own = held->second, seen = reported->second;
+  const double reference = knowledge.attributes[model.growing].reference_density;
+  const auto bell = [](double gap, double variance) {
+    return std::exp(-gap * gap / (2 * variance)) / std::sqrt(2 * std::numbers::pi * variance);
+  };
+  const double above = seen.mean - 1.2 * own.mean, spread = 1.44 * own.variance + seen.variance;
+  return {0.5 * (1 + std::erf(above / std::sqrt(2 * spread))),
+          bell(seen.mean - own.mean, own.variance + seen.variance) / reference,
+          bell(0, 2 * seen.variance) / reference};
+}
+
+double joint_ratio(const Sizes& size) { return size.larger * size.at_best; }
+
+/// How probable it is, for each detection and then for none of them, that an object in a model is
+/// hidden there.
+std::vector<double> hidden_in(const Object& object, const Moments& state,
+                              const BehaviourModel& model,
+                              const std::vector<Measurement>& detections,
+                              const Knowledge& knowledge) {
+  const int dims = knowledge.dims;
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(dims);
+  std::vector<double> hidden;
+  double sum = (1 - model.shared_probability) / model.shared_probability;
+  const double nowhere = sum;
+  for (const Measurement& z : detections) {
+    const Sizes size = sizes(object, model, z, knowledge);
+    const Eigen::MatrixXd wide =
+        z.covariance + model.reach * model.reach * Eigen::MatrixXd::Identity(dims, dims);
+    hidden.push_back(size.larger * std::min(1.0, 1 / size.alone) * density_at(state, z) /
+                     normal_density(none, none, wide));
+    sum += hidden.back();
+  }
+  hidden.push_back(nowhere);
+  for (double& h : hidden) h /= sum;
+  return hidden;
 }
 
 /// What is known of attributes fades, or follows their transitions.
@@ -63,6 +127,31 @@ void change(Object& object, const AttributeChange& change, double dt) {
   for (const Transition& t : change.transitions) q(t.from, t.to) += t.rate;
   q.diagonal() -= q.rowwise().sum();
   held->second = (exponential(q * dt).transpose() * held->second).eval();
+}
+
+/// What was learned holds only with a probability; else it is as before.
+void doubt_attributes(Object& object, const std::map<int, Eigen::VectorXd>& symbols_before,
+                      const std::map<int, ScalarReport>& scalars_before, double own) {
+  const auto doubt = [own](auto& now, const auto& before, auto mix) {
+    for (auto at = now.begin(); at != now.end();) {
+      const auto held = before.find(at->first);
+      if (held == before.end() && own < 0.5) {
+        at = now.erase(at);
+        continue;
+      }
+      if (held != before.end()) mix(at->second, held->second);
+      ++at;
+    }
+  };
+  doubt(object.symbols, symbols_before, [own](Eigen::VectorXd& b, const Eigen::VectorXd& old) {
+    b = (own * b + (1 - own) * old).eval();
+  });
+  doubt(object.scalars, scalars_before, [own](ScalarReport& s, const ScalarReport& old) {
+    const double mean = own * s.mean + (1 - own) * old.mean;
+    const double square =
+        own * (s.variance + s.mean * s.mean) + (1 - own) * (old.variance + old.mean * old.mean);
+    s = {mean, square - mean * mean};
+  });
 }
 
 /// The rate matrix of the behaviour weights: rows leave, columns are entered.
@@ -179,8 +268,9 @@ double Laws::predict(Object& object, double dt) const {
       const double entering = moved[from].weight * chain(from, to);
       if (from == to || entering == 0) continue;
       if (m[to].tracked()) {
-        density.state = merge(density.weight, density.state, entering,
-                              fit(moved[from].state, m[to], cells_.dims));
+        density.state =
+            merge(density.weight, density.state, entering,
+                  fit(alone(moved[from].state, m[from], cells_.dims), m[to], cells_.dims));
       } else {
         density.cells = ((density.weight * density.cells + entering * extent_of(m[to]).uniform) /
                          (density.weight + entering))
@@ -216,7 +306,8 @@ double Laws::visible(const Density& density, const BehaviourModel& model,
   return mass;
 }
 
-double Laws::miss(Object& object, const Sensor& sensor, const Sight& sight) const {
+double Laws::miss(Object& object, const Sensor& sensor, const Sight& sight,
+                  const std::vector<Measurement>& detections) const {
   const auto& m = models(object);
   const Eigen::VectorXd detected = detection_probabilities(knowledge_, sensor);
   const double p = object.classes.dot(detected);
@@ -224,6 +315,23 @@ double Laws::miss(Object& object, const Sensor& sensor, const Sight& sight) cons
   double v = 0;
   for (std::size_t i = 0; i < m.size(); ++i) {
     v_m.push_back(visible(object.models[i], m[i], sight));
+    if (m[i].shares() && object.models[i].weight > 0) {
+      Moments& state = object.models[i].state;
+      const auto hidden = hidden_in(object, state, m[i], detections, knowledge_);
+      const double in_view = v_m.back();
+      v_m.back() *= hidden.back();
+      // Out of view, or missed; then hidden in one or another.
+      double weight = 1 - in_view + in_view * hidden.back() * (1 - p);
+      Moments sum = state;
+      for (std::size_t z = 0; z < detections.size(); ++z) {
+        if (in_view * hidden[z] == 0) continue;
+        Moments drawn = state;
+        correct(drawn, detections[z], cells_.dims);
+        sum = merge(weight, sum, in_view * hidden[z], drawn);
+        weight += in_view * hidden[z];
+      }
+      state = sum;
+    }
     v += object.models[i].weight * v_m[i];
   }
   const double q = p * v;
@@ -245,9 +353,7 @@ double Laws::likelihood(const Density& density, const BehaviourModel& model,
                         const Measurement& z) const {
   if (!model.detectable || density.weight == 0) return 0;
   const int d = cells_.dims;
-  if (model.tracked())
-    return normal_density(z.position, density.state.mean.head(d),
-                          density.state.covariance.topLeftCorner(d, d) + z.covariance);
+  if (model.tracked()) return density_at(density.state, z);
   const Extent& e = extent_of(model);
   const int cell = cells_.find(z.position);
   if (cell < 0 || (d == 3 && (z.position(2) < e.floor || z.position(2) > e.ceiling))) return 0;
@@ -260,13 +366,17 @@ double Laws::detect(Object& object, const Sensor& sensor, const Measurement& z) 
       object.classes.cwiseProduct(detection_probabilities(knowledge_, sensor))
           .cwiseProduct(z.class_ratio);
   std::vector<double> weights;
-  double place = 0;
+  double alone = 0, shared = 0;
   for (std::size_t i = 0; i < m.size(); ++i) {
     weights.push_back(object.models[i].weight * likelihood(object.models[i], m[i], z));
-    place += weights[i];
+    if (m[i].shares()) weights[i] *= joint_ratio(sizes(object, m[i], z, knowledge_));
+    (m[i].shares() ? shared : alone) += weights[i];
   }
-  double g = classes.sum() * place;
-  if (g == 0) return 0;
+  if (classes.sum() * (alone + shared) == 0) return 0;
+  // What the attributes say is of it alone, or of others, too.
+  double ratio_of_attributes = 1;
+  const auto symbols_before = object.symbols;
+  const auto scalars_before = object.scalars;
   for (const auto& [a, ratio] : z.symbol_ratio) {
     const auto held = object.symbols.find(a);
     if (held == object.symbols.end()) {
@@ -274,7 +384,7 @@ double Laws::detect(Object& object, const Sensor& sensor, const Measurement& z) 
       continue;
     }
     const Eigen::VectorXd posterior = held->second.cwiseProduct(ratio);
-    g *= posterior.sum();
+    ratio_of_attributes *= posterior.sum();
     held->second = posterior / posterior.sum();
   }
   for (const auto& [a, report] : z.scalar) {
@@ -282,13 +392,19 @@ double Laws::detect(Object& object, const Sensor& sensor, const Measurement& z) 
     if (first_report) continue;
     ScalarReport& s = held->second;
     const double variance = s.variance + report.variance;
-    g *= normal_density(Eigen::VectorXd::Constant(1, report.mean),
-                        Eigen::VectorXd::Constant(1, s.mean),
-                        Eigen::MatrixXd::Constant(1, 1, variance)) /
-         knowledge_.attributes[a].reference_density;
+    ratio_of_attributes *= normal_density(Eigen::VectorXd::Constant(1, report.mean),
+                                          Eigen::VectorXd::Constant(1, s.mean),
+                                          Eigen::MatrixXd::Constant(1, 1, variance)) /
+                           knowledge_.attributes[a].reference_density;
     s = {(s.mean * report.variance + report.mean * s.variance) / variance,
          s.variance * report.variance / variance};
   }
+
+  for (std::size_t i = 0; i < m.size(); ++i)
+    if (!m[i].shares()) weights[i] *= ratio_of_attributes;
+  alone *= ratio_of_attributes;
+  const double place = alone + shared;
+  if (shared > 0) doubt_attributes(object, symbols_before, scalars_before, alone / place);
 
   const int home = first(m, can_be_found);
   for (std::size_t i = 0; i < m.size(); ++i) {
@@ -304,7 +420,7 @@ double Laws::detect(Object& object, const Sensor& sensor, const Measurement& z) 
   }
   object.classes = classes / classes.sum();
   follow_class(object);
-  return g;
+  return classes.sum() * place;
 }
 
 Object Laws::born(const Measurement& z, Eigen::VectorXd classes) const {
@@ -341,8 +457,9 @@ void Laws::follow_class(Object& object) const {
   std::vector<std::size_t> homeless;
   for (std::size_t i = 0; i < from.size(); ++i) {
     std::size_t j = 0;
-    while (j < to.size() && (taken[j] || to[j].kind != from[i].kind ||
-                             (!from[i].tracked() && to[j].place != from[i].place)))
+    while (j < to.size() &&
+           (taken[j] || to[j].kind != from[i].kind || to[j].shares() != from[i].shares() ||
+            (!from[i].tracked() && to[j].place != from[i].place)))
       ++j;
     if (j == to.size()) {
       homeless.push_back(i);
@@ -365,8 +482,8 @@ void Laws::follow_class(Object& object) const {
     }
     const int tracked = first(to, is_tracked);
     Density& home = result[tracked];
-    const Moments state =
-        from[i].tracked() ? density.state : moments(density.cells, cells_, extent_of(from[i]));
+    const Moments state = from[i].tracked() ? alone(density.state, from[i], cells_.dims)
+                                            : moments(density.cells, cells_, extent_of(from[i]));
     home.state =
         merge(home.weight, home.state, density.weight, fit(state, to[tracked], cells_.dims));
     home.weight += density.weight;

@@ -45,8 +45,9 @@ class Laws {
 
   /// Over dt seconds, given that it stays; returns the probability that it leaves.
   double predict(Object& object, double dt) const;
-  /// Not detected, though it exists: returns 1 - q.
-  double miss(Object& object, const Sensor& sensor, const Sight& sight) const;
+  /// Not detected, though it exists, in a frame of these detections: returns 1 - q.
+  double miss(Object& object, const Sensor& sensor, const Sight& sight,
+              const std::vector<Measurement>& detections) const;
   /// Detected: returns g(z). Where that is 0 the object cannot have been it, and means nothing
   /// afterwards.
   double detect(Object& object, const Sensor& sensor, const Measurement& z) const;

@@ -87,6 +87,15 @@ struct Step {
   std::vector<std::optional<ObjectKey>> named;  ///< per detection
 };
 
+/// The last detection may be one of the others, reported once more.
+void repeat(const Sensor& sensor, std::vector<Measurement>& detections) {
+  Measurement& last = detections.back();
+  for (std::size_t i = 0; i + 1 < detections.size(); ++i)
+    last.clutter +=
+        sensor.double_detection * normal_density(last.position, detections[i].position,
+                                                 detections[i].covariance + last.covariance);
+}
+
 struct World {
   struct Member {
     ObjectKey key;
@@ -113,10 +122,13 @@ class Enumeration {
       undetected.predict(step.dt);
       for (const Detection& detection : frames[t].detections) {
         step.detections.push_back(measure(knowledge, *step.sensor, detection));
+        repeat(*step.sensor, step.detections);
         step.terms.push_back(undetected.terms(*step.sensor, step.detections.back()));
         step.named.push_back(parse_reference(detection.object));
       }
-      belief_.expected_detections += undetected.look(*step.sensor, step.sight);
+      belief_.expected_detections +=
+          undetected.look(*step.sensor, step.sight) +
+          step.sensor->double_detection * static_cast<double>(step.detections.size());
       steps_.push_back(std::move(step));
     }
     prepare(undetected);
@@ -186,7 +198,8 @@ class Enumeration {
   void miss(std::size_t t, World world) {
     for (World::Member& member : world.members) {
       if (member.exists && !member.detected)
-        world.weight *= laws_.miss(member.object, *steps_[t].sensor, steps_[t].sight);
+        world.weight *=
+            laws_.miss(member.object, *steps_[t].sensor, steps_[t].sight, steps_[t].detections);
     }
     predict(t + 1, 0, std::move(world));
   }

@@ -165,6 +165,19 @@ class Maker {
       c.transitions.push_back({0, at, dice_.scale(0.05, 1)});
       c.transitions.push_back({at, 0, dice_.scale(0.05, 1)});
     }
+    if (variety_.shared && dice_.chance(0.8)) {
+      BehaviourModel sharing = tracked(Kind::kConstantPosition);
+      sharing.stir = dice_.chance(0.7) ? dice_.scale(0.05, 2) : 0;
+      sharing.shared_probability = dice_.uniform(0.5, 0.99);
+      for (std::size_t a = 0; a < known().attributes.size(); ++a)
+        if (known().attributes[a].kind == Attribute::Kind::kScalar && dice_.chance(0.7))
+          sharing.growing = static_cast<int>(a);
+      sharing.reach = known().cell * dice_.scale(0.03, 0.6);
+      const int at = static_cast<int>(c.models.size());
+      c.models.push_back(sharing);
+      c.transitions.push_back({0, at, dice_.scale(0.05, 1)});
+      c.transitions.push_back({at, 0, dice_.scale(0.05, 1)});
+    }
     for (int n = 0; variety_.somewhere && n < 2 && dice_.chance(n == 0 ? 0.9 : 0.3); ++n) {
       BehaviourModel model;
       model.kind = Kind::kSomewhere;
@@ -201,6 +214,7 @@ class Maker {
           sensor.confusion.back().push_back(dice_.distribution(n, 0.05));
       }
       sensor.identity_doubt = dice_.scale(0.005, 0.5);
+      if (variety_.doubled) sensor.double_detection = dice_.uniform(0.01, 0.5);
       const double variance = deviation() * deviation();
       for (int i = 0; i < k.dims * k.dims; ++i)
         sensor.noise.push_back(i % (k.dims + 1) == 0 ? variance : 0);
@@ -365,6 +379,9 @@ Variety random_variety(std::mt19937_64& random) {
                      &v.undetectable, &v.somewhere, &v.views, &v.correlated, &v.departures,
                      &v.arrivals, &v.outside, &v.sensors, &v.late, &v.verification, &v.changes})
     *kind = dice.chance(0.4);
+  std::mt19937_64 apart = random;  // so that scenes without them stay as they are
+  Dice more(apart);
+  for (bool* kind : {&v.shared, &v.doubled}) *kind = more.chance(0.4);
   v.changes = v.changes && v.attributes;
   v.late = v.late && !v.verification;  // a detection cannot name what has not arrived yet
   return v;

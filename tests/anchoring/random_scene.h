@@ -19,6 +19,8 @@ struct Variety {
   bool scores = false;          ///< on some detections
   bool several_models = false;  ///< two tracked models that change into each other
   bool undetectable = false;    ///< a model that is never detected beside the first
+  bool shared = false;          ///< a model whose objects share detections beside the first
+  bool doubled = false;         ///< sensors that report things twice
   bool somewhere = false;       ///< models over places or the world, with small R in mid-cell
   bool views = false;           ///< rectangles and L-shapes along cell borders, none, configured
   bool correlated = false;      ///< covariances of detections that are not diagonal
