@@ -30,29 +30,29 @@ double nearness(const Kinematic& place, const Gaussian& z, double reach, int dim
          std::pow(2 * std::numbers::pi, 0.5 * dims);
 }
 
+double normal_ratio(double gap, double variance, const Attribute& attribute) {
+  return std::exp(-0.5 * gap * gap / variance) /
+         (std::sqrt(2 * std::numbers::pi * variance) * attribute.reference_density);
+}
+
 /// A detection's size, beside a leaf's.
 struct SizeFit {
-  double larger;   ///< the probability that it is larger as a joint extent is
-  double alone;    ///< its L_A, if it is of such an object alone
-  double at_best;  ///< L_A of what fits perfectly
+  double larger;  ///< the probability that it is larger as a joint extent is
+  double alone;   ///< its L_A, if it is of such an object alone
 };
 
 std::optional<SizeFit> size_fit(const Leaf& leaf, const MapDetection& z,
                                 const BehaviourModel& model, const Background& background) {
   const AttributeBelief* belief = model.growing < 0 ? nullptr : leaf.attribute(model.growing);
   if (!belief) return std::nullopt;
-  const double reference = background.knowledge.attributes[model.growing].reference_density;
   for (const AttributeEvidence& evidence : z.attributes) {
     if (evidence.attribute != model.growing) continue;
-    const auto normal = [&](double gap, double variance) {
-      return std::exp(-0.5 * gap * gap / variance) / std::sqrt(2 * std::numbers::pi * variance);
-    };
     const double above = evidence.mean - kLarger * belief->mean;
     const double spread = kLarger * kLarger * belief->variance + evidence.variance;
-    return SizeFit{
-        0.5 * std::erfc(-above / std::sqrt(2 * spread)),
-        normal(evidence.mean - belief->mean, belief->variance + evidence.variance) / reference,
-        normal(0, 2 * evidence.variance) / reference};
+    const double gap = evidence.mean - belief->mean,
+                 variance = belief->variance + evidence.variance;
+    return SizeFit{0.5 * std::erfc(-above / std::sqrt(2 * spread)),
+                   normal_ratio(gap, variance, background.knowledge.attributes[model.growing])};
   }
   return std::nullopt;
 }
@@ -124,7 +124,13 @@ void predict_shared(Kinematic& density, const BehaviourModel& model, double dt, 
 double log_shared_ratio(const Leaf& leaf, const MapDetection& z, const BehaviourModel& model,
                         const Background& background) {
   const auto fit = size_fit(leaf, z, model, background);
-  return fit ? std::log(fit->larger * fit->at_best) : 0;
+  if (!fit) return 0;
+  double ratio = fit->larger;
+  for (const AttributeEvidence& evidence : z.attributes)
+    if (const auto* belief = leaf.attribute(evidence.attribute); belief && belief->symbols.empty())
+      ratio *= normal_ratio(0, 2 * evidence.variance,
+                            background.knowledge.attributes[evidence.attribute]);
+  return std::log(ratio);
 }
 
 void hide(const Leaf& leaf, const MapFrame& frame, const Background& background,

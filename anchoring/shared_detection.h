@@ -21,7 +21,8 @@ Kinematic shared_place(Kinematic density, const BehaviourModel& model, int dims)
 void predict_shared(Kinematic& density, const BehaviourModel& model, double dt, int dims);
 
 /// ln of what the attributes of a detection that it shares are worth for an object, in place of the
-/// L_A of all: its size, if one is configured, is larger than the object's; else nothing.
+/// L_A of all: its size, if one is configured, is larger than the object's, and all scalars are as
+/// good as any that were known before; else nothing.
 double log_shared_ratio(const Leaf& leaf, const MapDetection& z, const BehaviourModel& model,
                         const Background& background);
 

@@ -71,7 +71,7 @@ void correct(Moments& state, const Measurement& z, int dims) {
 struct Sizes {
   double larger = 1;   ///< the probability that it is 1.2 times larger
   double alone = 1;    ///< its density if it is of such an object alone, over its reference
-  double at_best = 1;  ///< the most that can be
+  double at_best = 1;  ///< of all scalars, the most that can be
 };
 
 Sizes sizes(const Object& object, const BehaviourModel& model, const Measurement& z,
@@ -85,9 +85,12 @@ Sizes sizes(const Object& object, const BehaviourModel& model, const Measurement
     return std::exp(-gap * gap / (2 * variance)) / std::sqrt(2 * std::numbers::pi * variance);
   };
   const double above = seen.mean - 1.2 * own.mean, spread = 1.44 * own.variance + seen.variance;
+  double at_best = 1;
+  for (const auto& [a, report] : z.scalar)
+    if (object.scalars.count(a) > 0)
+      at_best *= bell(0, 2 * report.variance) / knowledge.attributes[a].reference_density;
   return {0.5 * (1 + std::erf(above / std::sqrt(2 * spread))),
-          bell(seen.mean - own.mean, own.variance + seen.variance) / reference,
-          bell(0, 2 * seen.variance) / reference};
+          bell(seen.mean - own.mean, own.variance + seen.variance) / reference, at_best};
 }
 
 double joint_ratio(const Sizes& size) { return size.larger * size.at_best; }
