@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "tests/anchoring/enumerated_sharing.h"
+
 namespace anchord::enumeration {
 namespace {
 
@@ -51,12 +53,6 @@ void move(Moments& state, const BehaviourModel& model, int dims, double dt) {
   state.covariance = (f * state.covariance * f.transpose() + q).eval();
 }
 
-double density_at(const Moments& state, const Measurement& z) {
-  const auto d = z.position.size();
-  return normal_density(z.position, state.mean.head(d),
-                        state.covariance.topLeftCorner(d, d) + z.covariance);
-}
-
 void correct(Moments& state, const Measurement& z, int dims) {
   const auto n = state.mean.size();
   const Eigen::MatrixXd h = Eigen::MatrixXd::Identity(dims, n);
@@ -65,58 +61,6 @@ void correct(Moments& state, const Measurement& z, int dims) {
   state.mean = (state.mean + gain * (z.position - h * state.mean)).eval();
   state.covariance = ((Eigen::MatrixXd::Identity(n, n) - gain * h) * state.covariance).eval();
   state.covariance = ((state.covariance + state.covariance.transpose()) / 2).eval();
-}
-
-/// What a detection's size says of an object: 1 everywhere where nothing is known.
-struct Sizes {
-  double larger = 1;   ///< the probability that it is 1.2 times larger
-  double alone = 1;    ///< its density if it is of such an object alone, over its reference
-  double at_best = 1;  ///< of all scalars, the most that can be
-};
-
-Sizes sizes(const Object& object, const BehaviourModel& model, const Measurement& z,
-            const Knowledge& knowledge) {
-  const auto held = object.scalars.find(model.growing);
-  const auto reported = z.scalar.find(model.growing);
-  if (held == object.scalars.end() || reported == z.scalar.end()) return {};
-  const ScalarReport own = held->second, seen = reported->second;
-  const double reference = knowledge.attributes[model.growing].reference_density;
-  const auto bell = [](double gap, double variance) {
-    return std::exp(-gap * gap / (2 * variance)) / std::sqrt(2 * std::numbers::pi * variance);
-  };
-  const double above = seen.mean - 1.2 * own.mean, spread = 1.44 * own.variance + seen.variance;
-  double at_best = 1;
-  for (const auto& [a, report] : z.scalar)
-    if (object.scalars.count(a) > 0)
-      at_best *= bell(0, 2 * report.variance) / knowledge.attributes[a].reference_density;
-  return {0.5 * (1 + std::erf(above / std::sqrt(2 * spread))),
-          bell(seen.mean - own.mean, own.variance + seen.variance) / reference, at_best};
-}
-
-double joint_ratio(const Sizes& size) { return size.larger * size.at_best; }
-
-/// How probable it is, for each detection and then for none of them, that an object in a model is
-/// hidden there.
-std::vector<double> hidden_in(const Object& object, const Moments& state,
-                              const BehaviourModel& model,
-                              const std::vector<Measurement>& detections,
-                              const Knowledge& knowledge) {
-  const int dims = knowledge.dims;
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(dims);
-  std::vector<double> hidden;
-  double sum = (1 - model.shared_probability) / model.shared_probability;
-  const double nowhere = sum;
-  for (const Measurement& z : detections) {
-    const Sizes size = sizes(object, model, z, knowledge);
-    const Eigen::MatrixXd wide =
-        z.covariance + model.reach * model.reach * Eigen::MatrixXd::Identity(dims, dims);
-    hidden.push_back(size.larger * std::min(1.0, 1 / size.alone) * density_at(state, z) /
-                     normal_density(none, none, wide));
-    sum += hidden.back();
-  }
-  hidden.push_back(nowhere);
-  for (double& h : hidden) h /= sum;
-  return hidden;
 }
 
 /// What is known of attributes fades, or follows their transitions.
@@ -130,31 +74,6 @@ void change(Object& object, const AttributeChange& change, double dt) {
   for (const Transition& t : change.transitions) q(t.from, t.to) += t.rate;
   q.diagonal() -= q.rowwise().sum();
   held->second = (exponential(q * dt).transpose() * held->second).eval();
-}
-
-/// What was learned holds only with a probability; else it is as before.
-void doubt_attributes(Object& object, const std::map<int, Eigen::VectorXd>& symbols_before,
-                      const std::map<int, ScalarReport>& scalars_before, double own) {
-  const auto doubt = [own](auto& now, const auto& before, auto mix) {
-    for (auto at = now.begin(); at != now.end();) {
-      const auto held = before.find(at->first);
-      if (held == before.end() && own < 0.5) {
-        at = now.erase(at);
-        continue;
-      }
-      if (held != before.end()) mix(at->second, held->second);
-      ++at;
-    }
-  };
-  doubt(object.symbols, symbols_before, [own](Eigen::VectorXd& b, const Eigen::VectorXd& old) {
-    b = (own * b + (1 - own) * old).eval();
-  });
-  doubt(object.scalars, scalars_before, [own](ScalarReport& s, const ScalarReport& old) {
-    const double mean = own * s.mean + (1 - own) * old.mean;
-    const double square =
-        own * (s.variance + s.mean * s.mean) + (1 - own) * (old.variance + old.mean * old.mean);
-    s = {mean, square - mean * mean};
-  });
 }
 
 /// The rate matrix of the behaviour weights: rows leave, columns are entered.
@@ -175,75 +94,6 @@ Eigen::MatrixXd rates(const ObjectClass& object_class) {
 }
 
 }  // namespace
-
-Eigen::VectorXd symbol_ratio(const SymbolReport& report, const Attribute& attribute,
-                             const Sensor& sensor, std::size_t attribute_index) {
-  const auto n = static_cast<Eigen::Index>(attribute.symbols.size());
-  Eigen::VectorXd m = Eigen::VectorXd::Constant(n, -1);
-  double left = 1;
-  for (const auto& [symbol, p] : report.probabilities) {
-    const auto at = std::find(attribute.symbols.begin(), attribute.symbols.end(), symbol);
-    if (at == attribute.symbols.end()) std::abort();
-    m(at - attribute.symbols.begin()) = p;
-    left -= p;
-  }
-  const auto unnamed = static_cast<double>((m.array() < 0).count());
-  for (double& p : m) p = std::max(p < 0 ? std::max(left, 0.0) / unnamed : p, 1e-6);
-  m /= m.sum();
-
-  const std::size_t a = attribute_index;
-  if (a < sensor.confusion.size() && !sensor.confusion[a].empty()) {
-    Eigen::VectorXd ratio = Eigen::VectorXd::Zero(n);
-    for (Eigen::Index s = 0; s < n; ++s)
-      for (Eigen::Index j = 0; j < n; ++j) ratio(s) += m(j) * sensor.confusion[a][s][j];
-    return ratio / ratio.mean();
-  }
-  if (a < sensor.prior.size() && !sensor.prior[a].empty()) {
-    for (Eigen::Index s = 0; s < n; ++s) m(s) /= sensor.prior[a][s];
-    return m;
-  }
-  return m * static_cast<double>(n);
-}
-
-Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Detection& detection) {
-  const int d = knowledge.dims;
-  const auto* measured = std::get_if<CartesianMeasurement>(&detection.measurement);
-  if (!measured) std::abort();
-  const std::vector<double>& r = measured->covariance.empty() ? sensor.noise : measured->covariance;
-  Measurement z{.position = Eigen::Map<const Eigen::VectorXd>(measured->position.data(), d),
-                .covariance = Eigen::Map<const Eigen::MatrixXd>(r.data(), d, d),
-                .class_ratio = Eigen::VectorXd::Ones(static_cast<int>(knowledge.classes.size())),
-                .symbol_ratio = {},
-                .scalar = {},
-                .clutter = sensor.clutter_density};
-  for (const AttributeReport& report : detection.attributes) {
-    std::size_t a = 0;
-    while (knowledge.attributes.at(a).name != report.name) ++a;
-    if (const auto* symbols = std::get_if<SymbolReport>(&report.value)) {
-      const Eigen::VectorXd ratio = symbol_ratio(*symbols, knowledge.attributes[a], sensor, a);
-      if (static_cast<int>(a) == knowledge.class_attribute)
-        z.class_ratio = ratio;
-      else
-        z.symbol_ratio[static_cast<int>(a)] = ratio;
-    } else {
-      z.scalar[static_cast<int>(a)] = std::get<ScalarReport>(report.value);
-    }
-  }
-  if (detection.score) {
-    const double p = std::clamp(*detection.score, 1e-6, 1 - 1e-6);
-    z.clutter *= (1 - p) / p;
-  }
-  return z;
-}
-
-Eigen::VectorXd detection_probabilities(const Knowledge& knowledge, const Sensor& sensor) {
-  Eigen::VectorXd p(static_cast<int>(knowledge.classes.size()));
-  for (int c = 0; c < p.size(); ++c) {
-    p(c) = sensor.detection_probability.empty() ? knowledge.classes[c].detection_probability
-                                                : sensor.detection_probability[c];
-  }
-  return p;
-}
 
 Laws::Laws(const Knowledge& knowledge) : knowledge_(knowledge), cells_(knowledge) {
   for (int place = -1; place < static_cast<int>(knowledge.places.size()); ++place)
