@@ -134,6 +134,7 @@ Background::Background(Knowledge k)
     largest_extent = std::max(largest_extent, c.extent.norm());
     shares = shares || std::any_of(c.models.begin(), c.models.end(),
                                    [](const BehaviourModel& m) { return m.shares(); });
+    has_phantoms = has_phantoms || c.phantom;
     arrivals.push_back(std::make_shared<ArrivalModel>(ArrivalModel{
         c.undetected_intensity, c.departure_rate, c.arrival_rate, concentrated(c, *this)}));
     moving_arrivals.push_back(

@@ -17,7 +17,7 @@
 namespace anchord {
 
 /// An object of at least this probability is believed in: it gets a name, and stands in a best
-/// world of whose leaf this is the r.
+/// world whose leaf has this real_existence().
 inline constexpr double kBelievedIn = 0.5;
 
 /// One object that is believed to exist, whichever hypothesis leads: its identity for life.
@@ -51,8 +51,8 @@ struct Cluster {
   HypothesisSet hypotheses;  ///< normalised, best first; leaf numbers index AnchorTree::leaves
   int leading = 0;           ///< the hypothesis that the best world shows, see choose_leading()
 
-  /// P(the anchor exists) = sum over hypotheses of P(h) r, at the time of its leaves.
-  double existence(int anchor) const;
+  /// P(the anchor exists and is no phantom), the sum over hypotheses, at the time of its leaves.
+  double existence(int anchor, const Background& background) const;
   /// The anchor's leaf in the best world, whatever its r, or null.
   const Leaf* best_leaf(int anchor) const;
 };

@@ -64,11 +64,12 @@ bool alike(const Leaf& a, const Leaf& b, double rarer, const Background& backgro
   return difference(a, b, background, most) < most;
 }
 
-double Cluster::existence(int anchor) const {
+double Cluster::existence(int anchor, const Background& background) const {
   double p = 0;
   for (const Hypothesis& h : hypotheses)
     if (h.leaf[anchor] != Hypothesis::kNoLeaf)
-      p += std::exp(h.log_weight) * anchors[anchor].leaves[h.leaf[anchor]]->existence;
+      p += std::exp(h.log_weight) *
+           real_existence(*anchors[anchor].leaves[h.leaf[anchor]], background);
   return p;
 }
 
@@ -134,7 +135,7 @@ PoolVector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
     if (used.empty()) continue;
     part->hypotheses = used.size() == factor.anchors.size() ? std::move(factor.hypotheses)
                                                             : marginal(factor.hypotheses, used);
-    choose_leading(*part, background.dims);
+    choose_leading(*part, background);
     parts.push_back(std::move(part));
   }
   return parts;

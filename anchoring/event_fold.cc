@@ -24,7 +24,7 @@ std::shared_ptr<const Cluster> only(const Cluster& cluster, const std::vector<in
   auto part = std::make_shared<Cluster>();
   for (int a : anchors) part->anchors.push_back(cluster.anchors[a]);
   part->hypotheses = marginal(cluster.hypotheses, anchors);
-  choose_leading(*part, background.dims);
+  choose_leading(*part, background);
   return part;
 }
 
@@ -64,15 +64,17 @@ void change_leaves(AnchorTree& tree, Utime utime, const Background& background, 
   }
 }
 
-/// Only worlds in which the object exists are left, and in them it does for certain.
-void exists(Cluster& cluster, int anchor) {
+/// Only worlds in which the object exists are left, and in them it does for certain, no phantom.
+void exists(Cluster& cluster, int anchor, const Background& background) {
   AnchorTree& tree = cluster.anchors[anchor];
   HypothesisSet left;
   for (const Hypothesis& h : cluster.hypotheses) {
     const int leaf = h.leaf[anchor];
-    if (leaf == Hypothesis::kNoLeaf || tree.leaves[leaf]->existence <= 0) continue;
+    if (leaf == Hypothesis::kNoLeaf) continue;
+    const double p = real_existence(*tree.leaves[leaf], background);
+    if (p <= 0) continue;
     left.push_back(h);
-    left.back().log_weight += std::log(tree.leaves[leaf]->existence);
+    left.back().log_weight += std::log(p);
   }
   if (left.empty())  // it was believed to have left for certain
     for (const Hypothesis& h : cluster.hypotheses)
@@ -80,8 +82,9 @@ void exists(Cluster& cluster, int anchor) {
   normalise(left);
   cluster.hypotheses = std::move(left);
   for (auto& leaf : tree.leaves) {
-    auto certain = std::make_shared<Leaf>(*leaf);
+    auto certain = std::make_shared<Leaf>(as_real(*leaf, background));
     certain->existence = 1;
+    follow_class(*certain, background);
     leaf = std::move(certain);
   }
 }
@@ -104,7 +107,7 @@ void change_anchor(Belief& belief, const AnchorPlace& at, const Background& back
                    Change change) {
   auto cluster = std::make_shared<Cluster>(*belief.clusters[at.cluster]);
   change_leaves(cluster->anchors[at.anchor], belief.utime, background, change);
-  choose_leading(*cluster, background.dims);
+  choose_leading(*cluster, background);
   belief.clusters.replace(at.cluster, std::move(cluster), background);
 }
 
@@ -115,7 +118,7 @@ void happen(Belief& belief, const AnchorPlace& at, const MapEvent& event,
   AnchorTree& tree = cluster.anchors[at.anchor];
   change_leaves(tree, belief.utime, background,
                 [&](Leaf& leaf) { handle(leaf, event, background); });
-  exists(cluster, at.anchor);
+  exists(cluster, at.anchor, background);
   Anchor changed = *tree.anchor;
   changed.holder =
       event.event.kind == Kind::kGrasped ? std::optional(event.event.robot) : std::nullopt;

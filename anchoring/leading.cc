@@ -18,7 +18,8 @@ constexpr double kSameSpot = 1;
 
 class Names {
  public:
-  Names(const Cluster& cluster, int dims) : cluster_(cluster), dims_(dims) {}
+  Names(const Cluster& cluster, const Background& background)
+      : cluster_(cluster), background_(background) {}
 
   /// Whether a hypothesis has each object about where the world shown so far has it, and none under
   /// another name.
@@ -72,20 +73,21 @@ class Names {
 
   const Leaf& leaf(std::size_t anchor, int l) const { return *cluster_.anchors[anchor].leaves[l]; }
   bool stands(std::size_t anchor, int l) const {
-    return l != Hypothesis::kNoLeaf && leaf(anchor, l).existence >= kBelievedIn;
+    return l != Hypothesis::kNoLeaf && real_existence(leaf(anchor, l), background_) >= kBelievedIn;
   }
   bool apart(const Leaf& a, const Leaf& b) const {
-    const double d2 = fit(position_of(a), position_of(b).position_density(), dims_).distance2;
+    const double d2 =
+        fit(position_of(a), position_of(b).position_density(), background_.dims).distance2;
     return d2 > kSameSpot * kSameSpot;
   }
 
   const Cluster& cluster_;
-  int dims_;
+  const Background& background_;
 };
 
-int leading(const Cluster& cluster, int dims) {
+int leading(const Cluster& cluster, const Background& background) {
   const Hypothesis& best = cluster.hypotheses.front();
-  const Names names(cluster, dims);
+  const Names names(cluster, background);
   if (names.kept_by(best)) return 0;
   for (std::size_t h = 1; h < cluster.hypotheses.size(); ++h) {
     const Hypothesis& other = cluster.hypotheses[h];
@@ -100,8 +102,8 @@ int leading(const Cluster& cluster, int dims) {
 
 }  // namespace
 
-void choose_leading(Cluster& cluster, int dims) {
-  cluster.leading = cluster.hypotheses.size() > 1 ? leading(cluster, dims) : 0;
+void choose_leading(Cluster& cluster, const Background& background) {
+  cluster.leading = cluster.hypotheses.size() > 1 ? leading(cluster, background) : 0;
   const Hypothesis& shown = cluster.hypotheses[cluster.leading];
   for (std::size_t a = 0; a < cluster.anchors.size(); ++a) cluster.anchors[a].shown = shown.leaf[a];
 }

@@ -16,6 +16,6 @@ inline constexpr double kClearlyOther = 3;
 /// take turns at the top, and names that follow them call an object now this, now that. So a world
 /// that gives the objects shown so far (AnchorTree::shown) other names must outweigh the one that
 /// keeps them clearly. Sets Cluster::leading and the trees' `shown`.
-void choose_leading(Cluster& cluster, int dims);
+void choose_leading(Cluster& cluster, const Background& background);
 
 }  // namespace anchord

@@ -142,6 +142,24 @@ Kinematic as_model(Kinematic k, const BehaviourModel& model, int dims) {
   return k;
 }
 
+double real_existence(const Leaf& leaf, const Background& background) {
+  if (!background.has_phantoms) return leaf.existence;
+  double real = 0;
+  for (int c = 0; c < background.classes(); ++c)
+    if (!background.object_class(c).phantom) real += leaf.classes[c];
+  return leaf.existence * real;
+}
+
+Leaf as_real(Leaf leaf, const Background& background) {
+  if (!background.has_phantoms) return leaf;
+  const double real = real_existence(leaf, background);
+  if (real > 0)
+    for (int c = 0; c < background.classes(); ++c)
+      leaf.classes[c] *= background.object_class(c).phantom ? 0 : leaf.existence / real;
+  leaf.existence = real;
+  return leaf;
+}
+
 int Leaf::top_class() const {
   return static_cast<int>(std::max_element(classes.begin(), classes.end()) - classes.begin());
 }
@@ -191,6 +209,12 @@ void predict(Leaf& leaf, Utime utime, const Background& background) {
   if (leaves) follow_class(leaf, background);
 }
 
+double class_ratio(const Leaf& leaf, const MapDetection& z, int c, const Background& background) {
+  if (!z.score || !background.object_class(c).phantom) return z.class_ratio[c];
+  return z.class_ratio[c] *
+         std::exp(z.score->log_ratio - leaf.scores.log_ratio(*z.score, leaf.utime));
+}
+
 double log_likelihood(const Leaf& leaf, const MapDetection& z,
                       const std::vector<double>& detection_probability, bool gated,
                       const Background& background) {
@@ -222,7 +246,8 @@ double log_likelihood(const Leaf& leaf, const MapDetection& z,
   if (!in_gate || (log_alone == kLogZero && log_shared == kLogZero)) return kLogZero;
   double by_class = 0;
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
-    by_class += leaf.classes[c] * detection_probability[c] * z.class_ratio[c];
+    by_class += leaf.classes[c] * detection_probability[c] *
+                class_ratio(leaf, z, static_cast<int>(c), background);
   double log_g = std::log(by_class) + log_alone;
   for (const auto& evidence : z.attributes)
     log_g += log_attribute_ratio(leaf, evidence, background);

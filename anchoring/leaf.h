@@ -31,12 +31,13 @@ struct ModelState {
 /// One version of an anchor, given one history of associations. A value; all of it holds for
 /// `utime`. Class, models and position are kept as a product of marginals.
 struct Leaf {
-  double existence = 0;                                  ///< r
+  double existence = 0;                                  ///< r, phantoms included
   boost::container::small_vector<double, 4> classes;     ///< b(c), sums to 1
   int model_class = 0;                                   ///< the class whose models these are
   boost::container::small_vector<ModelState, 2> models;  ///< in the order of that class
   std::vector<AttributeBelief> attributes;               ///< those reported, ascending
   std::optional<double> yaw;                             ///< last reported, map frame
+  ScoreTrace scores;  ///< of its detections, where there are phantoms
   bool held = false;  ///< by a robot: it stays where that is, and a miss says nothing
   Utime utime = 0;
   Utime last_seen = 0;
@@ -62,8 +63,19 @@ struct LeafVisibility {
 /// velocity, constant_velocity begins with 0 and its initial variance.
 Kinematic as_model(Kinematic density, const BehaviourModel& model, int dims);
 
+/// P(there is such an object): that the leaf's exists and is no phantom.
+double real_existence(const Leaf& leaf, const Background& background);
+
+/// The leaf as answers have it: its existence is real_existence(), its classes are those of an
+/// object that is no phantom.
+Leaf as_real(Leaf leaf, const Background& background);
+
 /// Carries a leaf to `utime`: attributes, departure, behaviour weights, densities.
 void predict(Leaf& leaf, Utime utime, const Background& background);
+
+/// l(z|c) for a leaf that z is given to: a phantom's, too, is what the score says beyond the scores
+/// before.
+double class_ratio(const Leaf& leaf, const MapDetection& z, int c, const Background& background);
 
 /// ln g(z | leaf) of a predicted leaf, not yet counting r; kLogZero where it cannot be.
 /// `detection_probability` is per class. With `gated`, also kLogZero where z lies outside the gates

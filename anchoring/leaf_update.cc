@@ -131,8 +131,10 @@ void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Backgro
   leaf.last_seen = leaf.utime;
   const double own = update_models(leaf, z, sensor, background);
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
-    leaf.classes[c] *= sensor.detection_probability[c] * z.class_ratio[c];
+    leaf.classes[c] *=
+        sensor.detection_probability[c] * class_ratio(leaf, z, static_cast<int>(c), background);
   normalise(leaf.classes, background);
+  if (z.score) leaf.scores.take(*z.score, leaf.utime);
   learn_attributes(leaf, z, background, own);
   if (z.yaw) leaf.yaw = z.yaw;
   follow_class(leaf, background);
@@ -180,6 +182,7 @@ Leaf first_leaf(const MapDetection& z, std::span<const double> terms, double exi
   }
   learn_attributes(leaf, z, background);
   leaf.yaw = z.yaw;
+  if (z.score) leaf.scores.take(*z.score, utime);
   leaf.utime = leaf.last_seen = utime;
   return leaf;
 }

@@ -12,9 +12,18 @@ namespace {
 constexpr double kLeastSymbol = 1e-6;  // no report is certain
 constexpr double kLeastScore = 1e-6;
 
-/// A report as a distribution over all symbols: what is left over is spread over those not named.
+/// Per symbol of an attribute whether sensors may report it: no phantom is told to be one.
+std::vector<char> reportable(const Knowledge& knowledge, int attribute) {
+  std::vector<char> out(knowledge.attributes[attribute].symbols.size(), 1);
+  if (attribute == knowledge.class_attribute)
+    for (std::size_t c = 0; c < out.size(); ++c) out[c] = !knowledge.classes[c].phantom;
+  return out;
+}
+
+/// A report as a distribution over the symbols that may be reported: what is left over is spread
+/// over those not named.
 Result<std::vector<double>> distribution(const SymbolReport& report, const Attribute& attribute,
-                                         const std::string& field) {
+                                         const std::vector<char>& may, const std::string& field) {
   std::vector<double> m(attribute.symbols.size(), -1.0);
   double sum = 0;
   for (const auto& [symbol, p] : report.probabilities) {
@@ -22,41 +31,45 @@ Result<std::vector<double>> distribution(const SymbolReport& report, const Attri
     const std::string at = field + "." + symbol;
     if (s < 0) return invalid(at, "is not a symbol of attribute \"" + attribute.name + "\"");
     if (!(p >= 0 && p <= 1.001)) return invalid(at, "must be a probability, 0 to 1");
+    if (!may[s]) return invalid(at, "is a phantom: report what it looks like");
     if (m[s] >= 0) return invalid(at, "is reported twice");
     m[s] = p;
     sum += p;
   }
   if (!(sum > 0)) return invalid(field, "its probabilities must not all be zero");
   if (sum > 1.001) return invalid(field, "its probabilities must sum to at most 1");
-  const auto unnamed = std::count(m.begin(), m.end(), -1.0);
+  std::ptrdiff_t unnamed = 0;
+  for (std::size_t s = 0; s < m.size(); ++s) unnamed += may[s] && m[s] < 0;
   double total = 0;
-  for (double& p : m) {
-    if (p < 0) p = std::max(0.0, 1 - sum) / static_cast<double>(unnamed);
-    p = std::max(p, kLeastSymbol);
-    total += p;
+  for (std::size_t s = 0; s < m.size(); ++s) {
+    if (m[s] < 0) m[s] = std::max(0.0, 1 - sum) / static_cast<double>(unnamed);
+    m[s] = may[s] ? std::max(m[s], kLeastSymbol) : 0;
+    total += m[s];
   }
   for (double& p : m) p /= total;
   return m;
 }
 
-/// m(s) / pi(s), or with a confusion matrix what the report is worth under each true symbol.
+/// m(s) / pi(s), or with a confusion matrix what the report is worth under each true symbol. That
+/// of clutter is 1; so is that of a phantom, which is reported as clutter is.
 std::vector<double> likelihood_ratio(const std::vector<double>& m, const Sensor& sensor,
-                                     int attribute) {
+                                     int attribute, const std::vector<char>& may) {
   const std::size_t n = m.size();
-  std::vector<double> ratio(n);
-  if (!sensor.confusion.empty() && !sensor.confusion[attribute].empty()) {
-    double sum = 0;
-    for (std::size_t s = 0; s < n; ++s) {
-      ratio[s] = 0;
-      for (std::size_t j = 0; j < n; ++j) ratio[s] += m[j] * sensor.confusion[attribute][s][j];
-      sum += ratio[s];
-    }
-    for (double& r : ratio) r /= sum / static_cast<double>(n);
-    return ratio;
+  const bool confused = !sensor.confusion.empty() && !sensor.confusion[attribute].empty();
+  const bool uniform = confused || sensor.prior.empty() || sensor.prior[attribute].empty();
+  std::vector<double> ratio(n, 1.0), prior(n, 1.0);
+  double reported = 0, total = 0;
+  for (std::size_t s = 0; s < n; ++s) {
+    if (!may[s]) continue;
+    ratio[s] = confused ? 0 : m[s];
+    for (std::size_t j = 0; confused && j < n; ++j)
+      ratio[s] += m[j] * sensor.confusion[attribute][s][j];
+    if (!uniform) prior[s] = sensor.prior[attribute][s];
+    reported += ratio[s];
+    total += prior[s];
   }
-  const bool uniform = sensor.prior.empty() || sensor.prior[attribute].empty();
   for (std::size_t s = 0; s < n; ++s)
-    ratio[s] = m[s] / (uniform ? 1.0 / static_cast<double>(n) : sensor.prior[attribute][s]);
+    if (may[s]) ratio[s] *= total / (reported * prior[s]);
   return ratio;
 }
 
@@ -80,9 +93,10 @@ Status read_attributes(const Detection& from, const std::string& at, const Knowl
     }
     if (attribute.kind != Attribute::Kind::kCategorical)
       return invalid(field, "is a scalar: give its mean and variance");
-    auto m = distribution(std::get<SymbolReport>(report.value), attribute, field);
+    const auto may = reportable(knowledge, a);
+    auto m = distribution(std::get<SymbolReport>(report.value), attribute, may, field);
     if (!m) return m.error();
-    auto ratio = likelihood_ratio(*m, sensor, a);
+    auto ratio = likelihood_ratio(*m, sensor, a, may);
     if (a == knowledge.class_attribute) {
       to.has_class = true;
       to.class_ratio = std::move(ratio);
@@ -133,7 +147,13 @@ Result<MapDetection> place_detection(const Detection& from, const Frame& frame,
       return invalid(at + ".score", "must be a probability, 0 to 1");
     const double p = std::clamp(*from.score, kLeastScore, 1 - kLeastScore);
     const auto [a, b] = sensor.score_calibration;
-    to.log_clutter -= a + b * (std::log(p) - std::log1p(-p));
+    const double logit = a + b * (std::log(p) - std::log1p(-p));
+    to.log_clutter -= logit;
+    if (background.has_phantoms)
+      to.score = {logit - std::log(sensor.real_share / (1 - sensor.real_share)),
+                  sensor.score_memory};
+    for (int c = 0; c < background.classes(); ++c)
+      if (background.object_class(c).phantom) to.class_ratio[c] *= std::exp(-to.score->log_ratio);
   }
   if (from.yaw) {
     if (!std::isfinite(*from.yaw)) return invalid(at + ".yaw", "must be finite");

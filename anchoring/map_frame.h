@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anchoring/background.h"
+#include "anchoring/score_trace.h"
 #include "core/frame.h"
 #include "core/result.h"
 #include "geometry/gaussian.h"
@@ -25,7 +26,10 @@ struct AttributeEvidence {
 struct MapDetection {
   Gaussian position;
   bool has_class = false;
-  std::vector<double> class_ratio;  ///< l(z|c) per class; 1 if no class was reported
+  /// l(z|c) per class; 1 if no class was reported. A phantom's with what the score says of a thing
+  /// that is reported for the first time.
+  std::vector<double> class_ratio;
+  std::optional<ScoreEvidence> score;  ///< where there are phantoms
   std::vector<AttributeEvidence> attributes;
   double log_clutter = 0;     ///< ln kappa(z)
   std::optional<double> yaw;  ///< map frame

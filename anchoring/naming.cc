@@ -6,9 +6,10 @@
 namespace anchord {
 namespace {
 
-bool deserves_name(const Cluster& cluster, int anchor) {
+bool deserves_name(const Cluster& cluster, int anchor, const Background& background) {
   const Leaf* best = cluster.best_leaf(anchor);
-  return (best && best->existence >= kBelievedIn) || cluster.existence(anchor) >= kBelievedIn;
+  return (best && real_existence(*best, background) >= kBelievedIn) ||
+         cluster.existence(anchor, background) >= kBelievedIn;
 }
 
 }  // namespace
@@ -23,13 +24,13 @@ void name_anchors(std::span<std::shared_ptr<const Cluster>> clusters, Belief& be
   for (std::size_t c = 0; c < clusters.size(); ++c)
     for (int a = 0; a < static_cast<int>(clusters[c]->anchors.size()); ++a) {
       const Anchor& anchor = *clusters[c]->anchors[a].anchor;
-      if (anchor.name.empty() && deserves_name(*clusters[c], a)) in_order[anchor.birth] = {c, a};
+      if (anchor.name.empty() && deserves_name(*clusters[c], a, background)) in_order[anchor.birth] = {c, a};
     }
   for (const auto& [birth, at] : in_order) {
     auto cluster = std::make_shared<Cluster>(*clusters[at.cluster]);
     AnchorTree& tree = cluster->anchors[at.anchor];
     const Leaf* best = cluster->best_leaf(at.anchor);
-    const int c = (best ? best : tree.leaves.front().get())->top_class();
+    const int c = as_real(best ? *best : *tree.leaves.front(), background).top_class();
     Anchor named = *tree.anchor;
     named.name = background.object_class(c).name + "-" + std::to_string(++belief.names[c]);
     tree.anchor = std::make_shared<const Anchor>(std::move(named));

@@ -83,14 +83,17 @@ Occlusion::Occlusion(const Belief& belief, const MapFrame& frame, const Backgrou
   belief.clusters.visit(may_hide, [&](Clusters::Place, const auto& cluster) {
     for (std::size_t a = 0; a < cluster->anchors.size(); ++a) {
       const Leaf* leaf = cluster->best_leaf(static_cast<int>(a));
-      if (!leaf || leaf->existence < kBelievedIn || leaf->held) continue;
-      const Eigen::Vector3d& extent = background.object_class(leaf->top_class()).extent;
+      if (!leaf || leaf->held || real_existence(*leaf, background) < kBelievedIn) continue;
+      const Leaf real = as_real(*leaf, background);
+      const Eigen::Vector3d& extent = background.object_class(real.top_class()).extent;
       if (extent.isZero(0)) continue;
       Leaf now = *leaf;
       predict(now, frame.utime, background);
+      now = as_real(std::move(now), background);
       const auto& density = std::get<Kinematic>(now.models[now.top_model()].density);
       if (outside(density, between(eye_, seen, extent.norm()))) continue;
-      const double p = cluster->existence(static_cast<int>(a)) * now.existence / leaf->existence;
+      const double p =
+          cluster->existence(static_cast<int>(a), background) * now.existence / real.existence;
       add(now, cluster->anchors[a].anchor->birth, p, background);
     }
   });

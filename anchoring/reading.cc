@@ -18,10 +18,11 @@ double predicate_probability(const AttributeBelief& belief, const Predicate& pre
                         (predicate.max - belief.mean) / sigma);
 }
 
+/// As it is then, given that it is no phantom.
 Leaf predicted(const Leaf& leaf, Utime at, const Background& background) {
   Leaf out = leaf;
   if (at > leaf.utime) predict(out, at, background);
-  return out;
+  return as_real(std::move(out), background);
 }
 
 /// The mass of a density in the union of all places. Where outermost places are disjoint and hold
@@ -268,7 +269,7 @@ double undetected(const Belief& belief, Utime at, const Description& description
   const double time = belief.frames == 0 ? 0 : belief.seconds(at);
   double sum = 0;
   for (int c = 0; c < background.classes(); ++c) {
-    double share = 1;
+    double share = background.object_class(c).phantom ? 0 : 1;
     for (const auto& term : description.terms) {
       const Attribute& attribute = background.knowledge.attributes[term.attribute];
       if (term.attribute == background.knowledge.class_attribute)

@@ -11,7 +11,7 @@ namespace anchord {
 
 /// What is believed about one object at one time, over all hypotheses of its cluster.
 struct ObjectBelief {
-  /// One leaf, predicted to the time of the reading.
+  /// One leaf, predicted to the time of the reading, as_real().
   struct Version {
     double probability = 0;  ///< that its leaf is the true one: the sum of P(h) over hypotheses
     Leaf leaf;
@@ -22,7 +22,7 @@ struct ObjectBelief {
     }
   };
   std::shared_ptr<const Anchor> anchor;
-  double p = 0;          ///< that it exists
+  double p = 0;          ///< that it exists and is no phantom
   int best = -1;         ///< the version in the most probable hypothesis, or -1
   bool in_best = false;  ///< stands in the best world: that version has r >= 0.5
   std::vector<Version> versions;

@@ -38,9 +38,9 @@ class Twins {
   /// How much there is to be said for an anchor's name.
   double claim(int a) const {
     const AnchorTree& tree = cluster_.anchors[a];
-    const bool shown =
-        tree.shown != Hypothesis::kNoLeaf && tree.leaves[tree.shown]->existence >= kBelievedIn;
-    return cluster_.existence(a) * (shown ? kClearlyOther : 1);
+    const bool shown = tree.shown != Hypothesis::kNoLeaf &&
+                       real_existence(*tree.leaves[tree.shown], background_) >= kBelievedIn;
+    return cluster_.existence(a, background_) * (shown ? kClearlyOther : 1);
   }
 
   /// In worlds without `into`: versions of `from` go by its name where it has one that is alike.

@@ -32,7 +32,7 @@ std::optional<Leaf> leaf_in(const Cluster& cluster, int hypothesis, std::size_t 
   if (number == Hypothesis::kNoLeaf) return std::nullopt;
   Leaf leaf = *cluster.anchors[anchor].leaves[number];
   predict(leaf, now, background);
-  return leaf;
+  return as_real(std::move(leaf), background);
 }
 
 bool stands(const std::optional<Leaf>& leaf) { return leaf && leaf->existence >= kBelievedIn; }

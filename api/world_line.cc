@@ -42,7 +42,8 @@ Json hypotheses_json(const Belief& belief, int count, const Background& backgrou
         if (h.leaf[a] == Hypothesis::kNoLeaf) continue;
         Leaf leaf = *cluster->anchors[a].leaves[h.leaf[a]];
         predict(leaf, belief.utime, background);
-        members.push_back({{"id", cluster->anchors[a].anchor->id()}, {"p", leaf.existence}});
+        members.push_back(
+            {{"id", cluster->anchors[a].anchor->id()}, {"p", real_existence(leaf, background)}});
       }
       hypotheses.push_back({{"p", std::exp(h.log_weight)}, {"members", std::move(members)}});
     }

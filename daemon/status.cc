@@ -12,15 +12,15 @@ struct BeliefSize {
   double expected = 0;
 };
 
-BeliefSize size_of(const Belief& belief) {
+BeliefSize size_of(const Belief& belief, const Background& background) {
   BeliefSize size;
   for (const auto& cluster : belief.clusters) {
     size.anchors += cluster->anchors.size();
     size.hypotheses += cluster->hypotheses.size();
     for (int a = 0; a < static_cast<int>(cluster->anchors.size()); ++a) {
-      size.expected += cluster->existence(a);
+      size.expected += cluster->existence(a, background);
       const Leaf* best = cluster->best_leaf(a);
-      size.objects += best && best->existence >= kBelievedIn ? 1 : 0;
+      size.objects += best && real_existence(*best, background) >= kBelievedIn ? 1 : 0;
     }
   }
   return size;
@@ -56,8 +56,9 @@ class Metrics {
 }  // namespace
 
 HttpResponse status_answer(const StatusSources& from) {
-  const auto belief = from.journal.snapshot().belief;
-  const BeliefSize size = size_of(*belief);
+  const Snapshot snapshot = from.journal.snapshot();
+  const auto& belief = snapshot.belief;
+  const BeliefSize size = size_of(*belief, *snapshot.background);
   const Statistics& s = from.statistics;
   const auto times = from.times.summary();
   Json out{{"version", ANCHORD_VERSION},
@@ -99,8 +100,9 @@ HttpResponse status_answer(const StatusSources& from) {
 }
 
 HttpResponse metrics_answer(const StatusSources& from) {
-  const auto belief = from.journal.snapshot().belief;
-  const BeliefSize size = size_of(*belief);
+  const Snapshot snapshot = from.journal.snapshot();
+  const auto& belief = snapshot.belief;
+  const BeliefSize size = size_of(*belief, *snapshot.background);
   const Statistics& s = from.statistics;
   const auto times = from.times.summary();
   Metrics out;

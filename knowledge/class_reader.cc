@@ -135,9 +135,11 @@ bool fit(const std::vector<Transition>& transitions, const std::vector<Behaviour
 /// A class: what `value` says, and else as `base` is.
 ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge& knowledge) {
   if (!value.object_of({"models", "transitions", "changes", "detection_probability", "arrival_rate",
-                        "arrivals", "departure_rate", "undetected_intensity", "extent"})) {
+                        "arrivals", "departure_rate", "undetected_intensity", "extent",
+                        "phantom"})) {
     return base;
   }
+  value.read("phantom", base.phantom);
   if (const auto models = value.find("models")) {
     base.models = read_models(*models, knowledge);
     if (!value.find("transitions") && !fit(base.transitions, base.models)) {
@@ -181,6 +183,7 @@ void read_classes(const JsonValue& root, Knowledge& knowledge) {
   const auto section = root.find("classes");
   if (const auto entry = section ? section->find("default") : std::nullopt) {
     base = read_class(*entry, std::move(base), knowledge);
+    if (base.phantom) entry->mistake_at(entry->path_of("phantom"), "is for a class by name");
   }
   for (const std::string& symbol : symbols) {
     ObjectClass object_class = base;
@@ -190,6 +193,9 @@ void read_classes(const JsonValue& root, Knowledge& knowledge) {
     object_class.name = symbol;
     knowledge.classes.push_back(std::move(object_class));
   }
+  if (section && std::all_of(knowledge.classes.begin(), knowledge.classes.end(),
+                             [](const ObjectClass& c) { return c.phantom; }))
+    section->mistake("must have a class that is no phantom");
   if (!section) return;
   std::vector<std::string> known = symbols;
   known.push_back("default");

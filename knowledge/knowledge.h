@@ -76,6 +76,7 @@ struct AttributeChange {
 
 struct ObjectClass {
   std::string name;
+  bool phantom = false;  ///< what sensors report though it is no object: in no answer
   std::vector<BehaviourModel> models;
   std::vector<Transition> transitions;
   std::vector<AttributeChange> changes;  ///< at most one for each attribute but `class`
@@ -113,6 +114,12 @@ struct Place {
   Region region;
 };
 
+/// How alike the scores of one thing are, given what it is, beyond what that explains.
+struct ScoreMemory {
+  double share = 0;    ///< of their variance that lasts, 0 to below 1; 0: each is news
+  double seconds = 1;  ///< for how long: its correlation falls as exp(-t / seconds)
+};
+
 struct Sensor {
   std::string name;
   double clutter_density = 1e-3;              ///< kappa, per frame and m^d
@@ -128,6 +135,9 @@ struct Sensor {
   std::vector<std::vector<std::vector<double>>> confusion;
   /// Of the scores: logit p' = [0] + [1] logit p is what counts, [1] > 0.
   std::array<double, 2> score_calibration{0, 1};
+  /// Of its detections, those of objects, 0 to 1: what a score is held against to tell phantoms.
+  double real_share = 0.5;
+  ScoreMemory score_memory;
   double pose_floor = 0;  ///< m^2
   double identity_doubt = 0.01;
   double double_detection = 0;  ///< how often it reports what it reports once more in one frame

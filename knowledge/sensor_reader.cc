@@ -9,6 +9,7 @@ namespace anchord {
 namespace {
 
 constexpr std::size_t kMostSensors = 100;
+constexpr Range kShare{0, 1, true, true};
 constexpr double kLeastPrior = 1e-6;     // as the floor of reported probabilities
 constexpr double kMostProbable = 1.001;  // a sum of printed probabilities may be rounded
 
@@ -115,16 +116,24 @@ void read_score_calibration(const JsonValue& value, Sensor& sensor) {
     value.mistake("must be [a, b] with b above 0: logit p' = a + b logit p");
 }
 
+void read_score_memory(const JsonValue& value, Sensor& sensor) {
+  if (!value.object_of({"share", "seconds"})) return;
+  value.read("share", sensor.score_memory.share, kBelowCertain);
+  value.read("seconds", sensor.score_memory.seconds, kPositive);
+}
+
 /// A sensor: what `value` says, and else as `draft` is.
 Draft read_sensor(const JsonValue& value, Draft draft, const Knowledge& knowledge) {
   if (!value.object_of({"clutter_density", "detection_probability", "view", "noise", "prior",
-                        "confusion", "score_calibration", "pose_floor", "identity_doubt",
-                        "double_detection", "verification"})) {
+                        "confusion", "score_calibration", "real_share", "score_memory",
+                        "pose_floor", "identity_doubt", "double_detection", "verification"})) {
     return draft;
   }
   Sensor& sensor = draft.sensor;
   value.read("clutter_density", sensor.clutter_density, kPositive);
   value.read("pose_floor", sensor.pose_floor, kNotNegative);
+  value.read("real_share", sensor.real_share, kShare);
+  if (const auto memory = value.find("score_memory")) read_score_memory(*memory, sensor);
   if (const auto calibration = value.find("score_calibration")) {
     read_score_calibration(*calibration, sensor);
   }

@@ -111,7 +111,7 @@ std::vector<AntsBelief> watch_ants(const Knowledge& knowledge, const std::vector
     AntsBelief& belief = beliefs.emplace_back();
     for (const auto& cluster : world.belief()->clusters)
       for (std::size_t a = 0; a < cluster->anchors.size(); ++a)
-        belief.expected += cluster->existence(static_cast<int>(a));
+        belief.expected += cluster->existence(static_cast<int>(a), *world.background());
     std::vector<bench::Track> tracks;
     for (const Shown& shown : best_world(*world.belief()))
       tracks.push_back({shown.birth, shown.position});

@@ -30,15 +30,25 @@ int poisson(double mean, Dice& dice) {
 class Simulation {
  public:
   Simulation(const Street& street, Dice& dice) : s_(street), dice_(dice) {
-    come(s_.undetected_intensity * area());
+    come(walkers_, s_.undetected_intensity * area());
+    // As many as there are after a long time.
+    come(ghosts_, s_.ghosts.arrival_rate / s_.ghosts.departure_rate * area());
   }
 
   void step() {
     const double dt = s_.seconds_per_frame;
-    std::erase_if(walkers_, [&](const Walker&) {
-      return dice_.chance(-std::expm1(-s_.departure_rate * dt));
-    });
-    for (Walker& w : walkers_) {
+    step(walkers_, s_.departure_rate);
+    come(walkers_, s_.arrival_rate * area() * dt);
+    if (s_.ghosts.arrival_rate <= 0) return;
+    step(ghosts_, s_.ghosts.departure_rate);
+    come(ghosts_, s_.ghosts.arrival_rate * area() * dt);
+  }
+
+  void step(std::vector<Walker>& walkers, double departure_rate) {
+    const double dt = s_.seconds_per_frame;
+    std::erase_if(walkers,
+                  [&](const Walker&) { return dice_.chance(-std::expm1(-departure_rate * dt)); });
+    for (Walker& w : walkers) {
       for (int axis = 0; axis < 2; ++axis) {
         // Position and velocity together have the covariance of white acceleration.
         const double push = dice_.normal() * std::sqrt(s_.psd * dt);
@@ -50,17 +60,20 @@ class Simulation {
       const double changes = both > 0 ? -std::expm1(-both * dt) / both : 0;
       if (dice_.chance((w.hidden ? s_.show : s_.hide) * changes)) w.hidden = !w.hidden;
     }
-    come(s_.arrival_rate * area() * dt);
   }
 
   Frame look(double seconds) {
     Frame f = frame(seconds, {}, "camera");
     f.view.emplace().type = View::Type::kWorld;
     const double deviation = std::sqrt(s_.variance);
-    for (const Walker& w : walkers_)
-      if (!w.hidden && dice_.chance(s_.detection_probability))
-        f.detections.push_back(at(w.position.x() + deviation * dice_.normal(),
-                                  w.position.y() + deviation * dice_.normal(), s_.variance));
+    const auto see = [&](const std::vector<Walker>& walkers, double p) {
+      for (const Walker& w : walkers)
+        if (!w.hidden && dice_.chance(p))
+          f.detections.push_back(at(w.position.x() + deviation * dice_.normal(),
+                                    w.position.y() + deviation * dice_.normal(), s_.variance));
+    };
+    see(walkers_, s_.detection_probability);
+    see(ghosts_, s_.ghosts.detection_probability);
     for (int n = poisson(s_.clutter_density * area(), dice_); n > 0; --n)
       f.detections.push_back(at(dice_.uniform(0, s_.side), dice_.uniform(0, s_.side), s_.variance));
     return f;
@@ -69,26 +82,26 @@ class Simulation {
   std::vector<TruthRow> rows() const {
     std::vector<TruthRow> rows;
     for (const Walker& w : walkers_)
-      rows.push_back({std::to_string(w.id), {w.position.x(), w.position.y(), 0}, "", false});
+      rows.push_back({std::to_string(w.id), {w.position.x(), w.position.y(), 0}, "object", false});
     return rows;
   }
 
  private:
   double area() const { return s_.side * s_.side; }
 
-  void come(double expected) {
+  void come(std::vector<Walker>& walkers, double expected) {
     const double hidden = s_.hide > 0 ? s_.hide / (s_.hide + s_.show) : 0;
     const double speed = std::sqrt(s_.velocity_variance);
-    for (int n = poisson(expected, dice_); n > 0; --n)
-      walkers_.push_back({ids_++,
-                          {dice_.uniform(0, s_.side), dice_.uniform(0, s_.side)},
-                          {speed * dice_.normal(), speed * dice_.normal()},
-                          dice_.chance(hidden)});
+    for (int n = expected > 0 ? poisson(expected, dice_) : 0; n > 0; --n)
+      walkers.push_back({ids_++,
+                         {dice_.uniform(0, s_.side), dice_.uniform(0, s_.side)},
+                         {speed * dice_.normal(), speed * dice_.normal()},
+                         dice_.chance(hidden)});
   }
 
   const Street& s_;
   Dice& dice_;
-  std::vector<Walker> walkers_;
+  std::vector<Walker> walkers_, ghosts_;
   int ids_ = 0;
 };
 
@@ -126,12 +139,22 @@ std::string configuration_of(const Street& s) {
     object["transitions"] = {{{"from", 0}, {"to", 1}, {"rate", s.hide}},
                              {{"from", 1}, {"to", 0}, {"rate", s.show}}};
   }
-  return json{
+  json out{
       {"world",
        {{"dimensions", 2}, {"bounds", {{"min", {0, 0}}, {"max", {s.side, s.side}}}}, {"cell", 1}}},
       {"classes", {{"default", object}}},
-      {"sensors", {{"default", {{"clutter_density", s.clutter_density}}}}}}
-      .dump();
+      {"sensors", {{"default", {{"clutter_density", s.clutter_density}}}}}};
+  if (s.ghosts.arrival_rate > 0) {
+    json ghost = object;
+    ghost["phantom"] = true;
+    ghost["detection_probability"] = s.ghosts.detection_probability;
+    ghost["arrival_rate"] = s.ghosts.arrival_rate;
+    ghost["departure_rate"] = s.ghosts.departure_rate;
+    ghost["undetected_intensity"] = s.ghosts.arrival_rate / s.ghosts.departure_rate;
+    out["attributes"]["class"] = {{"kind", "categorical"}, {"symbols", {"object", "ghost"}}};
+    out["classes"]["ghost"] = ghost;
+  }
+  return out.dump();
 }
 
 Knowledge knowledge_of(const Street& street) { return knowledge_from(configuration_of(street)); }

@@ -22,6 +22,13 @@ struct Street {
   double departure_rate = 0.02;        ///< 1/s
   double undetected_intensity = 0.02;  ///< per m^2, at the start
   double variance = 0.01;              ///< of detections, m^2
+
+  /// What is detected though it is no object, and moves as objects do; none unless they arrive.
+  struct Ghosts {
+    double detection_probability = 0.7;
+    double arrival_rate = 0;      ///< per m^2 and s
+    double departure_rate = 0.1;  ///< 1/s
+  } ghosts;
 };
 
 /// One sequence with truth.

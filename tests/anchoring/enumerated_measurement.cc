@@ -1,6 +1,10 @@
+// What a detection says, as the formulas take it.
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string>
+#include <variant>
 
 #include "tests/anchoring/enumerated_object.h"
 
@@ -35,6 +39,38 @@ Eigen::VectorXd symbol_ratio(const SymbolReport& report, const Attribute& attrib
   return m * static_cast<double>(n);
 }
 
+namespace {
+
+/// Of the class: among those that are no phantoms; theirs is clutter's own.
+Eigen::VectorXd reported_class(const SymbolReport& report, const Knowledge& knowledge,
+                               Sensor sensor) {
+  const auto a = static_cast<std::size_t>(knowledge.class_attribute);
+  Attribute real = knowledge.attributes[a];
+  for (std::size_t c = knowledge.classes.size(); c-- > 0;) {
+    if (!knowledge.classes[c].phantom) continue;
+    const auto at = static_cast<std::ptrdiff_t>(c);
+    real.symbols.erase(real.symbols.begin() + at);
+    if (a < sensor.prior.size() && !sensor.prior[a].empty()) {
+      auto& prior = sensor.prior[a];
+      const double rest = 1 - prior[c];
+      for (double& p : prior) p /= rest;
+      prior.erase(prior.begin() + at);
+    }
+    if (a >= sensor.confusion.size() || sensor.confusion[a].empty()) continue;
+    auto& rows = sensor.confusion[a];
+    rows.erase(rows.begin() + at);
+    for (auto& row : rows) row.erase(row.begin() + at);
+  }
+  const Eigen::VectorXd ratio = symbol_ratio(report, real, sensor, a);
+  Eigen::VectorXd all = Eigen::VectorXd::Ones(static_cast<int>(knowledge.classes.size()));
+  int next = 0;
+  for (int c = 0; c < all.size(); ++c)
+    if (!knowledge.classes[c].phantom) all(c) = ratio(next++);
+  return all;
+}
+
+}  // namespace
+
 Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Detection& detection) {
   const int d = knowledge.dims;
   const auto* measured = std::get_if<CartesianMeasurement>(&detection.measurement);
@@ -45,16 +81,17 @@ Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Dete
                 .class_ratio = Eigen::VectorXd::Ones(static_cast<int>(knowledge.classes.size())),
                 .symbol_ratio = {},
                 .scalar = {},
-                .clutter = sensor.clutter_density};
+                .clutter = sensor.clutter_density,
+                .score = {}};
   for (const AttributeReport& report : detection.attributes) {
     std::size_t a = 0;
     while (knowledge.attributes.at(a).name != report.name) ++a;
     if (const auto* symbols = std::get_if<SymbolReport>(&report.value)) {
-      const Eigen::VectorXd ratio = symbol_ratio(*symbols, knowledge.attributes[a], sensor, a);
       if (static_cast<int>(a) == knowledge.class_attribute)
-        z.class_ratio = ratio;
+        z.class_ratio = reported_class(*symbols, knowledge, sensor);
       else
-        z.symbol_ratio[static_cast<int>(a)] = ratio;
+        z.symbol_ratio[static_cast<int>(a)] =
+            symbol_ratio(*symbols, knowledge.attributes[a], sensor, a);
     } else {
       z.scalar[static_cast<int>(a)] = std::get<ScalarReport>(report.value);
     }
@@ -62,6 +99,7 @@ Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Dete
   if (detection.score) {
     const double p = std::clamp(*detection.score, 1e-6, 1 - 1e-6);
     z.clutter *= (1 - p) / p;
+    z.score = std::log(p / (1 - p) * (1 - sensor.real_share) / sensor.real_share);
   }
   return z;
 }

@@ -93,6 +93,24 @@ Eigen::MatrixXd rates(const ObjectClass& object_class) {
   return q;
 }
 
+/// ln f1/f0 of all scores of one thing at once: normal with a distance of 1 between both, and the
+/// covariance that the sensor's memory says.
+double joint_log_ratio(const std::vector<std::pair<double, double>>& scores,
+                       const ScoreMemory& memory) {
+  const auto n = static_cast<Eigen::Index>(scores.size());
+  Eigen::MatrixXd covariance(n, n);
+  Eigen::VectorXd single(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    single(i) = scores[i].second;
+    for (Eigen::Index j = 0; j < n; ++j)
+      covariance(i, j) =
+          i == j ? 1
+                 : memory.share *
+                       std::exp(-std::abs(scores[i].first - scores[j].first) / memory.seconds);
+  }
+  return n == 0 ? 0 : covariance.ldlt().solve(single).sum();
+}
+
 }  // namespace
 
 Laws::Laws(const Knowledge& knowledge) : knowledge_(knowledge), cells_(knowledge) {
@@ -105,6 +123,7 @@ const std::vector<BehaviourModel>& Laws::models(const Object& object) const {
 }
 
 double Laws::predict(Object& object, double dt) const {
+  object.age += dt;
   for (const AttributeChange& c : knowledge_.classes[object.object_class].changes)
     change(object, c, dt);
   const auto& m = models(object);
@@ -215,9 +234,15 @@ double Laws::likelihood(const Density& density, const BehaviourModel& model,
 
 double Laws::detect(Object& object, const Sensor& sensor, const Measurement& z) const {
   const auto& m = models(object);
-  const Eigen::VectorXd classes =
-      object.classes.cwiseProduct(detection_probabilities(knowledge_, sensor))
-          .cwiseProduct(z.class_ratio);
+  Eigen::VectorXd classes = object.classes.cwiseProduct(detection_probabilities(knowledge_, sensor))
+                                .cwiseProduct(z.class_ratio);
+  if (z.score) {
+    const double before = joint_log_ratio(object.scores, sensor.score_memory);
+    object.scores.emplace_back(object.age, *z.score);
+    const double news = joint_log_ratio(object.scores, sensor.score_memory) - before;
+    for (int c = 0; c < classes.size(); ++c)
+      if (knowledge_.classes[c].phantom) classes(c) *= std::exp(-news);
+  }
   std::vector<double> weights;
   double alone = 0, shared = 0;
   for (std::size_t i = 0; i < m.size(); ++i) {
@@ -278,6 +303,7 @@ double Laws::detect(Object& object, const Sensor& sensor, const Measurement& z) 
 
 Object Laws::born(const Measurement& z, Eigen::VectorXd classes) const {
   Object object;
+  if (z.score) object.scores.emplace_back(0, *z.score);
   object.classes = classes / classes.sum();
   object.object_class = most_probable(object.classes);
   const auto& m = models(object);

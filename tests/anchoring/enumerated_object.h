@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tests/anchoring/enumerated_density.h"
@@ -17,6 +18,7 @@ struct Measurement {
   std::map<int, Eigen::VectorXd> symbol_ratio;  ///< by attribute other than class: m(s) / pi(s)
   std::map<int, ScalarReport> scalar;           ///< by attribute
   double clutter = 0;                           ///< kappa(z)
+  std::optional<double> score;                  ///< ln f1/f0 of its score, where it has one
 };
 
 /// Floors, completes and weighs one report of symbols: m(s) / pi(s), or with the sensor's
@@ -24,6 +26,7 @@ struct Measurement {
 Eigen::VectorXd symbol_ratio(const SymbolReport& report, const Attribute& attribute,
                              const Sensor& sensor, std::size_t attribute_index);
 
+/// Of a phantom its class_ratio leaves out what the score says.
 Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Detection& detection);
 
 /// p_D of every class for a sensor.
@@ -36,6 +39,8 @@ struct Object {
   std::vector<Density> models;             ///< as those of object_class
   std::map<int, Eigen::VectorXd> symbols;  ///< b_A(s) of the attributes that were reported
   std::map<int, ScalarReport> scalars;
+  double age = 0;                                 ///< s
+  std::vector<std::pair<double, double>> scores;  ///< age, ln f1/f0
 };
 
 /// How an object that exists changes.

@@ -59,15 +59,17 @@ class Undetected {
   Eigen::VectorXd terms(const Sensor& sensor, const Measurement& z) const {
     Eigen::VectorXd e = detection_probabilities(knowledge_, sensor).cwiseProduct(z.class_ratio);
     const int cell = cells_.find(z.position);
-    for (int c = 0; c < e.size(); ++c)
+    for (int c = 0; c < e.size(); ++c) {
       e(c) *= cell < 0 ? knowledge_.classes[c].undetected_intensity : lambda_(c, cell);
+      if (knowledge_.classes[c].phantom && z.score) e(c) *= std::exp(-*z.score);
+    }
     return e;
   }
 
   std::vector<double> expected() const {
     std::vector<double> result;
     for (int c = 0; c < lambda_.rows(); ++c)
-      result.push_back(lambda_.row(c).sum() * cells_.volume());
+      result.push_back(knowledge_.classes[c].phantom ? 0 : lambda_.row(c).sum() * cells_.volume());
     return result;
   }
 
@@ -241,25 +243,30 @@ class Enumeration {
     for (const World::Member& member : world.members) {
       if (!member.exists) continue;
       const Object& o = member.object;
+      double real = 0;  // of w, those in which it is no phantom
+      for (int c = 0; c < o.classes.size(); ++c)
+        if (!knowledge_.classes[c].phantom) real += w * o.classes(c);
       EnumeratedObject& sum = belief_.objects[member.key];
       const Moments position = laws_.position(o);
-      sum.p_exists += w;
-      sum.mean += w * position.mean;
-      sum.covariance += w * (position.covariance + position.mean * position.mean.transpose());
-      for (std::size_t c = 0; c < sum.classes.size(); ++c) sum.classes[c] += w * o.classes(c);
+      sum.p_exists += real;
+      sum.mean += real * position.mean;
+      sum.covariance += real * (position.covariance + position.mean * position.mean.transpose());
+      for (std::size_t c = 0; c < sum.classes.size(); ++c)
+        if (!knowledge_.classes[c].phantom) sum.classes[c] += w * o.classes(c);
       for (std::size_t i = 0; i < o.models.size(); ++i)
-        sum.models[o.object_class][i] += w * o.models[i].weight;
+        sum.models[o.object_class][i] += real * o.models[i].weight;
       for (const auto& [a, belief] : o.symbols) {
         EnumeratedObject::Symbols& symbols = sum.symbols[a];
-        symbols.p_held += w;
+        symbols.p_held += real;
         symbols.belief.resize(belief.size(), 0);
-        for (std::size_t s = 0; s < symbols.belief.size(); ++s) symbols.belief[s] += w * belief(s);
+        for (std::size_t s = 0; s < symbols.belief.size(); ++s)
+          symbols.belief[s] += real * belief(s);
       }
       for (const auto& [a, scalar] : o.scalars) {
         EnumeratedObject::Scalar& moments_of = sum.scalars[a];
-        moments_of.p_held += w;
-        moments_of.mean += w * scalar.mean;
-        moments_of.variance += w * (scalar.variance + scalar.mean * scalar.mean);
+        moments_of.p_held += real;
+        moments_of.mean += real * scalar.mean;
+        moments_of.variance += real * (scalar.variance + scalar.mean * scalar.mean);
       }
     }
   }

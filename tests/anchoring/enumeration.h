@@ -29,8 +29,8 @@ std::string reference(const ObjectKey& key);
 std::optional<ObjectKey> parse_reference(const std::string& text);
 
 struct EnumeratedObject {
-  double p_exists = 0;  ///< now; 0 leaves everything below at zero
-  // Given that it exists:
+  double p_exists = 0;  ///< now, and is no phantom; 0 leaves everything below at zero
+  // Given that:
   Eigen::VectorXd mean;        ///< of its position, dims
   Eigen::MatrixXd covariance;  ///< of its position, dims x dims
   std::vector<double> classes;

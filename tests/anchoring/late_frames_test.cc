@@ -110,10 +110,10 @@ TEST(LateFrames, AnOldBeliefIsNotTouched) {
   World world(small_world());
   apply(world, {frame(0, {at(1, 1)}, "left"), frame(0.3, {at(1, 1)}, "left")});
   const auto old = world.belief();
-  const double p = old->clusters[0]->existence(0);
+  const double p = old->clusters[0]->existence(0, *world.background());
   apply(world, {frame(0.1, {}, "right")});
   EXPECT_NE(world.belief(), old);
-  EXPECT_EQ(old->clusters[0]->existence(0), p);
+  EXPECT_EQ(old->clusters[0]->existence(0, *world.background()), p);
   EXPECT_EQ(old->frames, 2u);
   EXPECT_EQ(world.belief()->frames, 3u);
 }

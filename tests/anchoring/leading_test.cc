@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tests/anchoring/small_world.h"
+
 namespace anchord {
 namespace {
 
@@ -18,6 +20,11 @@ std::shared_ptr<const Leaf> at(double x) {
   density.pp.diagonal().setConstant(0.01);
   leaf.models.push_back({1, density});
   return std::make_shared<const Leaf>(std::move(leaf));
+}
+
+const Background& background() {
+  static const Background made(small_world());
+  return made;
 }
 
 struct World {
@@ -44,7 +51,7 @@ Cluster two_objects(const std::vector<World>& worlds) {
 
 TEST(Leading, KeepsNamesWhileTheExchangeIsNotClearlyMoreProbable) {
   Cluster cluster = two_objects({{0.6, {kThere, kHere}}, {0.4, {kHere, kThere}}});
-  choose_leading(cluster, 2);
+  choose_leading(cluster, background());
   EXPECT_EQ(cluster.leading, 1);
   EXPECT_EQ(cluster.anchors[0].shown, kHere);
   ASSERT_TRUE(cluster.best_leaf(0));
@@ -53,7 +60,7 @@ TEST(Leading, KeepsNamesWhileTheExchangeIsNotClearlyMoreProbable) {
 
 TEST(Leading, ChangesNamesOnceTheExchangeIsTenTimesAsProbable) {
   Cluster cluster = two_objects({{0.92, {kThere, kHere}}, {0.08, {kHere, kThere}}});
-  choose_leading(cluster, 2);
+  choose_leading(cluster, background());
   EXPECT_EQ(cluster.leading, 0);
   EXPECT_EQ(cluster.anchors[0].shown, kThere);
 }
@@ -61,11 +68,11 @@ TEST(Leading, ChangesNamesOnceTheExchangeIsTenTimesAsProbable) {
 TEST(Leading, AnotherStateOfTheWorldIsShownAtOnce) {
   // The first has moved on to 9 m: no matter of names.
   Cluster moved = two_objects({{0.6, {2, kThere}}, {0.4, {kHere, kThere}}});
-  choose_leading(moved, 2);
+  choose_leading(moved, background());
   EXPECT_EQ(moved.leading, 0);
   // The first was never there.
   Cluster fewer = two_objects({{0.6, {kNone, kThere}}, {0.4, {kHere, kThere}}});
-  choose_leading(fewer, 2);
+  choose_leading(fewer, background());
   EXPECT_EQ(fewer.leading, 0);
 }
 
@@ -74,7 +81,7 @@ TEST(Leading, OneObjectUnderTwoNamesKeepsTheNameItWasShownUnder) {
   const auto twins = [](double other_name) {
     Cluster cluster = two_objects({{other_name, {kNone, kHere}}, {1 - other_name, {kHere, kNone}}});
     cluster.anchors[1].shown = kNone;
-    choose_leading(cluster, 2);
+    choose_leading(cluster, background());
     return cluster.leading;
   };
   EXPECT_EQ(twins(0.6), 1);
@@ -86,14 +93,14 @@ TEST(Leading, AnObjectThatIsGoneIsNotItsNeighbour) {
   // The second one stays where it was shown, close to where the first was: nobody took its place.
   Cluster cluster = two_objects({{0.6, {kNone, kHere}}, {0.4, {kHere, kNone}}});
   cluster.anchors[1].shown = kHere;
-  choose_leading(cluster, 2);
+  choose_leading(cluster, background());
   EXPECT_EQ(cluster.leading, 0);
 }
 
 TEST(Leading, WithoutAWorldShownBeforeTheMostProbableLeads) {
   Cluster cluster = two_objects({{0.6, {kThere, kHere}}, {0.4, {kHere, kThere}}});
   cluster.anchors[0].shown = cluster.anchors[1].shown = kNone;
-  choose_leading(cluster, 2);
+  choose_leading(cluster, background());
   EXPECT_EQ(cluster.leading, 0);
 }
 

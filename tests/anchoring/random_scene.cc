@@ -113,6 +113,8 @@ class Maker {
       }
       k.classes.push_back(c);
     }
+    if (variety_.phantoms)
+      k.classes[dice_.integer(0, static_cast<int>(names.size()) - 1)].phantom = true;
   }
 
   void make_changes(ObjectClass& c) {
@@ -197,8 +199,13 @@ class Maker {
 
   void make_sensors() {
     Knowledge& k = known();
+    ScoreMemory memory;
+    if (variety_.phantoms && dice_.chance(0.7))
+      memory = {dice_.uniform(0.2, 0.95), dice_.scale(0.1, 10)};
     for (const char* name : {"default", "left", "right"}) {
       Sensor sensor;
+      if (variety_.phantoms) sensor.real_share = dice_.uniform(0.2, 0.9);
+      sensor.score_memory = memory;
       sensor.name = name;
       sensor.clutter_density = dice_.scale(0.003, 1);
       for (const ObjectClass& c : k.classes)
@@ -297,17 +304,22 @@ class Maker {
       return {attribute.name,
               ScalarReport{0.1 + 0.1 * site + std::sqrt(variance) * dice_.normal(), variance}};
     }
-    const int n = static_cast<int>(attribute.symbols.size());
+    std::vector<std::string> symbols = attribute.symbols;
+    if (attribute.name == "class")  // nobody reports a phantom as one
+      std::erase_if(symbols, [&](const std::string& symbol) {
+        return known().classes[known().find_class(symbol)].phantom;
+      });
+    const int n = static_cast<int>(symbols.size());
     const int symbol = dice_.chance(0.8) ? site % n : dice_.integer(0, n - 1);
     SymbolReport r;
     if (dice_.chance(0.2)) {  // a certain one, which the floor holds back
-      r.probabilities.emplace_back(attribute.symbols[symbol], 1);
+      r.probabilities.emplace_back(symbols[symbol], 1);
     } else if (dice_.chance(0.5)) {  // a partial one
-      r.probabilities.emplace_back(attribute.symbols[symbol], dice_.uniform(0.4, 0.95));
+      r.probabilities.emplace_back(symbols[symbol], dice_.uniform(0.4, 0.95));
     } else {
       std::vector<double> p = dice_.distribution(n, 0.05);
       std::swap(p[symbol], *std::max_element(p.begin(), p.end()));
-      for (int s = 0; s < n; ++s) r.probabilities.emplace_back(attribute.symbols[s], p[s]);
+      for (int s = 0; s < n; ++s) r.probabilities.emplace_back(symbols[s], p[s]);
     }
     return {attribute.name, r};
   }

@@ -30,6 +30,7 @@ struct Variety {
   bool sensors = false;         ///< three of them, sometimes at one instant
   bool late = false;            ///< with `sensors`: some frames arrive late
   bool verification = false;    ///< detections that name their object, as reference() does
+  bool phantoms = false;        ///< with `classes`: one of them is a phantom
   double max_worlds = 20'000;   ///< detections are left out until there are fewer
 };
 

@@ -40,8 +40,8 @@ TEST(Twins, TheMoreProbableNameTakesTheOthersWorlds) {
   Cluster c = cluster({{2}, {2}}, {{0.6, {kNone, 0}}, {0.4, {0, kNone}}});
   join_twins(c, background());
   ASSERT_EQ(c.hypotheses.size(), 1u);
-  EXPECT_NEAR(c.existence(1), 1, 1e-15);
-  EXPECT_EQ(c.existence(0), 0);
+  EXPECT_NEAR(c.existence(1, background()), 1, 1e-15);
+  EXPECT_EQ(c.existence(0, background()), 0);
 }
 
 TEST(Twins, TheNameThatIsShownStaysUntilTheOtherIsClearlyMoreProbable) {
@@ -50,7 +50,7 @@ TEST(Twins, TheNameThatIsShownStaysUntilTheOtherIsClearlyMoreProbable) {
     c.anchors[0].shown = 0;
     join_twins(c, background());
     const bool stays = p > 0.25;  // a third of the other's
-    EXPECT_NEAR(c.existence(0), stays ? 1 : 0, 1e-15);
+    EXPECT_NEAR(c.existence(0, background()), stays ? 1 : 0, 1e-15);
     EXPECT_EQ(c.anchors[1].shown, stays ? kNone : 0);
   }
 }
@@ -61,8 +61,8 @@ TEST(Twins, WorldsWithBothOfThemStay) {
   join_twins(c, background());
   ASSERT_EQ(c.hypotheses.size(), 2u);
   EXPECT_NEAR(std::exp(c.hypotheses[0].log_weight), 0.5, 1e-15);
-  EXPECT_NEAR(c.existence(0), 1, 1e-15);
-  EXPECT_NEAR(c.existence(1), 0.5, 1e-15);
+  EXPECT_NEAR(c.existence(0, background()), 1, 1e-15);
+  EXPECT_NEAR(c.existence(1, background()), 0.5, 1e-15);
 }
 
 TEST(Twins, NamesThatWereExchangedAreLeftAlone) {
@@ -79,7 +79,7 @@ TEST(Twins, ObjectsThatDifferAndThoseThatPeopleNamedAreLeftAlone) {
   for (Cluster* c : {&apart, &named}) {
     join_twins(*c, background());
     EXPECT_EQ(c->hypotheses.size(), 2u);
-    EXPECT_NEAR(c->existence(0), 0.4, 1e-15);
+    EXPECT_NEAR(c->existence(0, background()), 0.4, 1e-15);
   }
 }
 

@@ -28,17 +28,6 @@ Glances glances_of(const Judgement& judgement, int object_class) {
   return glances;
 }
 
-/// The only tracked model that is detectable, or -1 if there are several.
-int single_model(const ObjectClass& c) {
-  int only = -1;
-  for (std::size_t m = 0; m < c.models.size(); ++m) {
-    if (!c.models[m].tracked() || !c.models[m].detectable) continue;
-    if (only >= 0) return -1;
-    only = static_cast<int>(m);
-  }
-  return only;
-}
-
 std::string looks_text(const Glances& glances) {
   std::size_t looks = 0;
   for (const auto& object : glances) looks += object.size();
@@ -61,35 +50,10 @@ void add_models(const Judgement& judgement, int object_class, const Knowledge& k
   moving.initial_weight = 1;
   const auto motion = fit_motion(tracks_of(judgement, object_class), moving,
                                  knowledge.limits.gate_probability, options.radius, knowledge.dims);
-  if (motion) {
-    moving.psd = moving.psd.with_plane(motion->psd.value);
-    moving.initial_velocity_variance =
-        moving.initial_velocity_variance.with_plane(motion->initial_velocity_variance.value);
-  }
-  std::vector<BehaviourModel> models{moving};
-  if (seen.hidden) {
-    models.push_back(moving);
-    models[1].detectable = false;
-    models[1].initial_weight = 0;
-  }
-  for (const BehaviourModel& m : c.models)
-    if (!m.tracked()) models.push_back(m);
-  out.push_back({at / "models", models_json(models, knowledge), ""});
-  const JsonPath first = at / "models" / std::size_t{0};
-  if (motion) {
-    const bool velocity = moving.kind == BehaviourModel::Kind::kConstantVelocity;
-    out.push_back(estimated(first / (velocity ? "acceleration_psd" : "position_psd"), motion->psd,
-                            "Maximum likelihood of " + std::to_string(motion->detections) +
-                                " detections on " + std::to_string(motion->tracks) +
-                                " tracks with " + std::to_string(motion->gaps) + " gaps, " +
-                                std::to_string(motion->strays) + " gross errors left out"));
-    if (velocity)
-      out.push_back(estimated(first / "initial_velocity_variance",
-                              motion->initial_velocity_variance, "From the same"));
-  } else {
+  add_motion(c, moving, motion, seen.hidden, knowledge, out);
+  if (!motion)
     out.push_back(
         {JsonPath(), nullptr, dotted(at) + ": no object was found twice; its motion is as it was"});
-  }
   if (!seen.hidden) {
     out.push_back({at / "transitions", json::array(),
                    "Misses do not come together: a hidden state gains " +

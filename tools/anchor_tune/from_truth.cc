@@ -44,6 +44,29 @@ bool fit_noise(const Judgement& judgement, int sensor, Knowledge& knowledge) {
   return true;
 }
 
+/// Of all classes that are phantoms; their chains are kept for the sensors.
+Findings findings_of_phantoms(const Judgement& judgement, const Knowledge& knowledge, double radius,
+                              std::optional<Phantoms>& phantoms) {
+  std::vector<int> classes;
+  bool single = true;
+  for (std::size_t c = 0; c < knowledge.classes.size(); ++c) {
+    if (!knowledge.classes[c].phantom) continue;
+    classes.push_back(static_cast<int>(c));
+    single = single && single_model(knowledge.classes[c]) >= 0;
+  }
+  if (classes.empty()) return {};
+  if (single) phantoms = find_phantoms(judgement, classes, knowledge, radius);
+  if (!phantoms)
+    return {{JsonPath(), nullptr,
+             "Phantoms have several tracked models, or nothing false was seen twice; they are as "
+             "they were"}};
+  Findings out;
+  for (std::size_t k = 0; k < classes.size(); ++k)
+    for (Finding& f : phantom_findings(judgement, classes[k], *phantoms, k, knowledge))
+      out.push_back(std::move(f));
+  return out;
+}
+
 }  // namespace
 
 Result<Findings> findings_from_truth(const std::vector<Recording>& recordings,
@@ -59,11 +82,16 @@ Result<Findings> findings_from_truth(const std::vector<Recording>& recordings,
 
   Findings all;
   for (std::size_t c = 0; c < knowledge.classes.size(); ++c) {
+    if (knowledge.classes[c].phantom) continue;
     const auto found = class_findings(*judgement, static_cast<int>(c), judging, options);
     all.insert(all.end(), found.begin(), found.end());
   }
+  std::optional<Phantoms> phantoms;
+  const auto false_ones = findings_of_phantoms(*judgement, judging, options.radius, phantoms);
+  all.insert(all.end(), false_ones.begin(), false_ones.end());
   for (std::size_t s = 0; s < judgement->sensors.size(); ++s) {
-    const auto found = sensor_findings(*judgement, static_cast<int>(s), judging, options.radius);
+    const auto found =
+        sensor_findings(*judgement, static_cast<int>(s), phantoms, judging, options.radius);
     all.insert(all.end(), found.begin(), found.end());
   }
   return all;

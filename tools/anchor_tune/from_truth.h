@@ -2,6 +2,7 @@
 
 #include "tools/anchor_tune/finding.h"
 #include "tools/anchor_tune/matching.h"
+#include "tools/anchor_tune/phantoms.h"
 
 namespace anchord::tuning {
 
@@ -17,9 +18,15 @@ Result<Findings> findings_from_truth(const std::vector<Recording>& recordings,
                                      const Knowledge& knowledge, const TruthOptions& options);
 
 /// Of one sensor (index into judgement.sensors): clutter density, score calibration, confusion,
-/// noise. `knowledge` is what the frames were judged with.
-Findings sensor_findings(const Judgement& judgement, int sensor, const Knowledge& knowledge,
+/// noise; with phantoms also what their scores are held against. `knowledge` is what the frames
+/// were judged with.
+Findings sensor_findings(const Judgement& judgement, int sensor,
+                         const std::optional<Phantoms>& phantoms, const Knowledge& knowledge,
                          double radius);
+
+/// Of a class that is a phantom, the kind of this number: its models and rates.
+Findings phantom_findings(const Judgement& judgement, int object_class, const Phantoms& phantoms,
+                          std::size_t number, const Knowledge& knowledge);
 
 /// Of one class: models with their motion, hiding, p_D of each sensor, arrivals and departures.
 Findings class_findings(const Judgement& judgement, int object_class, const Knowledge& knowledge,

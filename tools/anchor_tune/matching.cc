@@ -33,6 +33,7 @@ class Judge {
     const auto rows = truth_.find(frame.utime);
     JudgedFrame out;
     out.utime = frame.utime;
+    out.view = placed->view;
     if (rows != truth_.end()) {
       find_sights(placed->view, rows->second, out);
       for (std::size_t z = 0; z < placed->detections.size(); ++z)
@@ -62,10 +63,19 @@ class Judge {
       z.in_sensor = turned(*frame.pose, z.in_sensor);
     }
     z.placed = std::move(placed);
+    for (int c = 0; c < background_.classes(); ++c)  // what looks like none is told by its chain
+      if (background_.object_class(c).phantom)
+        z.placed.class_ratio[static_cast<std::size_t>(c)] = 0;
+    z.seen_before = seen_before(z.placed.position.mean);
     z.score = reported.score;
     const auto* cartesian = std::get_if<CartesianMeasurement>(&reported.measurement);
     z.needs_noise = cartesian && cartesian->covariance.empty();
     return z;
+  }
+
+  bool seen_before(const Eigen::Vector3d& position) const {
+    const int cell = background_.cell_of(position);
+    return cell >= 0 && seen_[static_cast<std::size_t>(cell)] > 0.5;
   }
 
   int class_of(const TruthRow& row) const {
@@ -79,10 +89,9 @@ class Judge {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const int object_class = class_of(rows[i]);
       if (rows[i].neutral || object_class < 0 || !view.contains(rows[i].position)) continue;
-      const int cell = background_.cell_of(rows[i].position);
       scored_[i] = static_cast<int>(out.sights.size());
-      out.sights.push_back({rows[i].id, object_class, rows[i].position, false,
-                            cell >= 0 && seen_[static_cast<std::size_t>(cell)] > 0.5});
+      out.sights.push_back(
+          {rows[i].id, object_class, rows[i].position, false, seen_before(rows[i].position)});
     }
   }
 

@@ -18,6 +18,7 @@ struct Judged {
   MapDetection placed;
   std::optional<double> score;
   Eigen::Vector3d in_sensor = Eigen::Vector3d::Zero();  ///< position, sensor frame
+  bool seen_before = false;  ///< its place had been in view earlier in this recording
   bool needs_noise = false;  ///< a position without covariance: the sensor's noise holds
   Verdict verdict = Verdict::kNeutral;
   // Only of a right one:
@@ -40,6 +41,7 @@ struct Sight {
 struct JudgedFrame {
   int recording = 0, sensor = 0;  ///< sensor: index into Judgement::sensors
   Utime utime = 0;
+  MapView view;
   std::vector<Judged> detections;
   std::vector<Sight> sights;
   double volume = 0;       ///< in view, m^dims, within the world's bounds

@@ -14,7 +14,8 @@ namespace {
 
 using Kind = BehaviourModel::Kind;
 
-constexpr int kRounds = 4;  // the strays hardly change after the first
+constexpr int kRounds = 4;        // the strays hardly change after the first
+constexpr double kStrays = 1e-4;  // share of gross errors at least, however wide the gate
 
 int count_gaps(const std::vector<MeasuredTrack>& tracks) {
   std::vector<double> steps;
@@ -53,7 +54,7 @@ Innovations innovations(const std::vector<MeasuredTrack>& tracks, const Strays& 
                         int dims) {
   const double ball = dims == 2 ? std::numbers::pi * radius * radius
                                 : 4.0 / 3 * std::numbers::pi * radius * radius * radius;
-  const double stray = std::max(1 - gate_probability, 1e-6);
+  const double stray = std::max(1 - gate_probability, kStrays);
   const double log_right = std::log1p(-stray), log_stray = std::log(stray / ball);
   Innovations out;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -75,22 +76,33 @@ Innovations innovations(const std::vector<MeasuredTrack>& tracks, const Strays& 
   return out;
 }
 
+BehaviourModel Motion::applied_to(BehaviourModel model) const {
+  const double height = vertical ? vertical->value : model.psd.vertical();
+  model.psd = {psd.value, height * psd.value};
+  const double speed = initial_velocity_variance.value;
+  if (model.kind == Kind::kConstantVelocity)
+    model.initial_velocity_variance = {speed, height * speed};
+  return model;
+}
+
 std::optional<Motion> fit_motion(const std::vector<MeasuredTrack>& tracks,
                                  const BehaviourModel& model, double gate_probability,
                                  double radius, int dims) {
   if (tracks.empty()) return std::nullopt;
   const bool velocity = model.kind == Kind::kConstantVelocity;
   Strays strays;
+  const bool height = dims == 3;
   const auto at = [&](const std::vector<double>& x) {
     BehaviourModel tried = model;
-    tried.psd = model.psd.with_plane(std::exp(x[0]));
-    if (velocity)
-      tried.initial_velocity_variance = model.initial_velocity_variance.with_plane(std::exp(x[1]));
+    const double vertical = height ? std::exp(x.back()) : model.psd.vertical();
+    tried.psd = {std::exp(x[0]), vertical * std::exp(x[0])};
+    if (velocity) tried.initial_velocity_variance = {std::exp(x[1]), vertical * std::exp(x[1])};
     return innovations(tracks, strays, tried, gate_probability, radius, dims);
   };
   const auto f = [&](const std::vector<double>& x) { return at(x).log_likelihood; };
   std::vector<double> start{std::log(std::max(model.psd.plane, 1e-9))};
   if (velocity) start.push_back(std::log(std::max(model.initial_velocity_variance.plane, 1e-9)));
+  if (height) start.push_back(std::log(std::clamp(model.psd.vertical(), 1e-3, 1.0)));
   Optimum best = maximise(f, start, 1, 400);
   for (int round = 0; round < kRounds; ++round) {
     Strays found = at(best.at).strays;
@@ -101,6 +113,7 @@ std::optional<Motion> fit_motion(const std::vector<MeasuredTrack>& tracks,
   Motion motion;
   motion.psd = profile_interval(f, best, 0, Scale::kLog);
   if (velocity) motion.initial_velocity_variance = profile_interval(f, best, 1, Scale::kLog);
+  if (height) motion.vertical = profile_interval(f, best, start.size() - 1, Scale::kLog);
   motion.tracks = static_cast<int>(tracks.size());
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     motion.detections += static_cast<int>(tracks[t].positions.size());

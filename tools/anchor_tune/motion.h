@@ -20,9 +20,13 @@ std::vector<MeasuredTrack> tracks_of(const Judgement& judgement, int object_clas
 struct Motion {
   Estimate psd;                        ///< as the model's kind has it
   Estimate initial_velocity_variance;  ///< constant_velocity only, (m/s)^2
+  std::optional<Estimate> vertical;    ///< in 3-D: what height has of both
   int detections = 0, tracks = 0;
   int gaps = 0;    ///< steps of over one and a half times the median
   int strays = 0;  ///< gross errors among the detections
+
+  /// A model of the kind that was fitted, with these numbers.
+  BehaviourModel applied_to(BehaviourModel model) const;
 };
 
 /// Flags of detections, per track.

@@ -15,6 +15,7 @@ struct Tally {
   double squares = 0;  // of normalised residuals, dims for each right one
   bool scored = false;
   double crowding = 1;
+  std::optional<double> clutter;  // of the wrong ones, where the others are phantoms
   std::vector<JudgedScore> scores;
 };
 
@@ -58,8 +59,10 @@ void add_clutter(const Tally& t, const JsonPath& at, const std::string& unit, Fi
   const std::string view =
       rounded(t.volume / static_cast<double>(t.frames)) + " " + unit + " in view on average";
   const std::int64_t count = t.scored ? t.right : t.wrong;
-  Estimate kappa = poisson_rate(count, t.volume / t.crowding);
-  if (count == 0) kappa.value = 0.5 * t.crowding / t.volume;
+  const double share = t.clutter && t.wrong > 0 ? *t.clutter / static_cast<double>(t.wrong) : 1;
+  const double exposure = t.volume / t.crowding / std::max(share, 1e-3);
+  Estimate kappa = poisson_rate(count, exposure);
+  if (count == 0) kappa.value = 0.5 / exposure;
   std::string how = "Per " + unit;
   if (t.scored)
     how +=
@@ -67,6 +70,8 @@ void add_clutter(const Tally& t, const JsonPath& at, const std::string& unit, Fi
         "clutter of that look is as dense as right detections would be, were they spread like "
         "clutter";
   how += ": " + counted(t) + ", " + view;
+  if (t.clutter)
+    how += "; " + rounded(*t.clutter) + " of the false ones are expected to be no phantoms";
   if (t.crowding > 1)
     how += "; where right ones are clutter is " + rounded(t.crowding) + " times as dense as that";
   out.push_back(estimated(at / "clutter_density", kappa, how));
@@ -91,6 +96,31 @@ void add_calibration(const Tally& t, const JsonPath& at, Findings& out) {
                  "Scores are off: " + fitted + "."});
 }
 
+/// What tells a phantom's scores from an object's.
+void add_score_odds(const Tally& t, const Phantoms& phantoms, int sensor, const JsonPath& at,
+                    Findings& out) {
+  if (t.right == 0 || t.wrong == 0) return;
+  out.push_back(estimated(at / "real_share", binomial_share(t.right, t.right + t.wrong),
+                          "Of right and false detections: a score is odds against these"));
+  std::vector<ScoreSeries> wrong;
+  for (const FalseChain& chain : phantoms.chains)
+    if (chain.sensor == sensor && chain.log_odds.size() == chain.track.seconds.size())
+      wrong.push_back({chain.track.seconds, chain.log_odds});
+  const auto likeness = fit_score_memory(wrong);
+  out.push_back({at / "score_memory", nullptr, ""});
+  if (!likeness) {
+    out.push_back({JsonPath(), nullptr,
+                   dotted(at) + ": the scores of one thing are no more alike than others"});
+    return;
+  }
+  out.push_back(estimated(at / "score_memory" / "share", likeness->share,
+                          "Of the variance of one thing's false scores this part lasts: "
+                          "maximum likelihood of " +
+                              std::to_string(likeness->scores) + " of them"));
+  out.push_back(
+      estimated(at / "score_memory" / "seconds", likeness->seconds, "For so long, from the same"));
+}
+
 void add_labels(const Judgement& judgement, int sensor, const Knowledge& knowledge,
                 const JsonPath& at, Findings& out) {
   const auto n = static_cast<int>(knowledge.classes.size());
@@ -110,9 +140,11 @@ void add_labels(const Judgement& judgement, int sensor, const Knowledge& knowled
   }
   out.push_back({confusion, nlohmann::json::object(), "Rows are true classes; " + losses + "."});
   for (std::size_t s = 0; s < labels->confusion.size(); ++s) {
+    if (knowledge.classes[s].phantom) continue;
     nlohmann::json row;
     std::int64_t pairs = 0;
     for (std::size_t j = 0; j < labels->confusion.size(); ++j) {
+      if (knowledge.classes[j].phantom) continue;
       row[knowledge.classes[j].name] = number(labels->confusion[s][j]);
       pairs += labels->counts[s][j];
     }
@@ -141,15 +173,20 @@ void add_noise(const Tally& t, const Sensor& settings, const JsonPath& at, int d
 
 }  // namespace
 
-Findings sensor_findings(const Judgement& judgement, int sensor, const Knowledge& knowledge,
+Findings sensor_findings(const Judgement& judgement, int sensor,
+                         const std::optional<Phantoms>& phantoms, const Knowledge& knowledge,
                          double radius) {
   const std::string& name = judgement.sensors[static_cast<std::size_t>(sensor)];
   const JsonPath at = JsonPath("/sensors") / name;
   Tally t = tally(judgement, sensor, knowledge.dims);
-  t.crowding = crowding(judgement, sensor, radius, knowledge.dims);
+  if (phantoms)  // what is new is held against phantoms that are new, which are as crowded
+    t.clutter = phantoms->clutter[static_cast<std::size_t>(sensor)];
+  else
+    t.crowding = crowding(judgement, sensor, radius, knowledge.dims);
   Findings out;
   add_clutter(t, at, knowledge.dims == 2 ? "m^2" : "m^3", out);
   add_calibration(t, at, out);
+  if (phantoms && t.scored) add_score_odds(t, *phantoms, sensor, at, out);
   add_labels(judgement, sensor, knowledge, at, out);
   add_noise(t, knowledge.sensor(name), at, knowledge.dims, out);
   return out;
