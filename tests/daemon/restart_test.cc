@@ -124,7 +124,7 @@ TEST(Restart, WorkThatWasBoundedIsBoundedAlikeAgain) {
   TestFolder folder;
   DaemonProcess::Options options;
   const std::string scene = options.scene.substr(0, options.scene.rfind('}'));
-  options.scene = scene + R"(, "hypotheses": {"frame_budget": 1e-4}})";
+  options.scene = scene + R"(, "hypotheses": {"frame_budget": 2e-5}})";
   std::string before;
   {
     DaemonProcess daemon(folder, options);
