@@ -84,6 +84,7 @@ ScratchVector<Group> couple(ScratchVector<PredictedCluster> clusters, int detect
     ScratchVector<Pairing> pairings;
     for (const Edge& e : edges) pairings.push_back(e.pairing);
     estimate_probabilities(pairings, anchors, detections);
+    count_exchanges(pairings, anchors, detections);
     for (std::size_t e = 0; e < edges.size(); ++e)
       if (pairings[e].probability >= negligible)
         ties.unite(edges[e].cluster, n + pairings[e].detection);

@@ -10,6 +10,8 @@ namespace {
 /// contraction; loops of near certain pairings take longest.
 constexpr double kSettled = 1e-3;
 constexpr int kMostRounds = 100;
+/// A pairing that is less probable takes part in no exchange that counts.
+constexpr double kLikely = 0.01;
 
 }  // namespace
 
@@ -42,6 +44,33 @@ void estimate_probabilities(ScratchVector<Pairing>& pairings, int tracks, int de
     of_track[pairings[e].track] += pairings[e].weight * message[e];
   for (std::size_t e = 0; e < pairings.size(); ++e)
     pairings[e].probability = pairings[e].weight * message[e] / of_track[pairings[e].track];
+}
+
+void count_exchanges(ScratchVector<Pairing>& pairings, int tracks, int detections) {
+  ScratchVector<std::size_t> first(tracks + 1, 0);  // per track, in `pairings`
+  for (const Pairing& p : pairings) ++first[p.track + 1];
+  for (int t = 0; t < tracks; ++t) first[t + 1] += first[t];
+  ScratchVector<SmallScratchVector<std::size_t, 4>> likely(detections);
+  for (std::size_t e = 0; e < pairings.size(); ++e)
+    if (pairings[e].probability >= kLikely) likely[pairings[e].detection].push_back(e);
+  ScratchVector<double> raised(pairings.size(), 0.0);
+  for (const auto& of_detection : likely)
+    for (const std::size_t own : of_detection) {
+      const Pairing& one = pairings[own];
+      for (std::size_t e = first[one.track]; e < first[one.track + 1]; ++e)
+        for (const std::size_t taken : likely[pairings[e].detection]) {
+          const Pairing& other = pairings[taken];
+          if (other.track == one.track) continue;
+          std::size_t back = first[other.track];
+          while (back < first[other.track + 1] && pairings[back].detection != one.detection) ++back;
+          if (back == first[other.track + 1]) continue;
+          const double odds =
+              pairings[e].weight / one.weight * (pairings[back].weight / other.weight);
+          raised[e] = std::max(raised[e], one.probability * other.probability * odds / (1 + odds));
+        }
+    }
+  for (std::size_t e = 0; e < pairings.size(); ++e)
+    pairings[e].probability = std::max(pairings[e].probability, raised[e]);
 }
 
 }  // namespace anchord

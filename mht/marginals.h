@@ -20,4 +20,10 @@ struct Pairing {
 /// propagation", IEEE Trans. AES 50(4), 2014.
 void estimate_probabilities(ScratchVector<Pairing>& pairings, int tracks, int detections);
 
+/// Raises estimated probabilities to what two tracks that may exchange their detections give them.
+/// Where both are nearly sure to give one of the two, belief propagation is all for the more
+/// probable way round, be the other one nearly as probable: the Bethe permanent of two by two is
+/// the larger product (Vontobel, IEEE Trans. IT 59(3), 2013). `pairings`: in order of their tracks.
+void count_exchanges(ScratchVector<Pairing>& pairings, int tracks, int detections);
+
 }  // namespace anchord

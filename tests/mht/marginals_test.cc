@@ -63,6 +63,7 @@ TEST(Marginals, WithLoopsTellLikelyFromUnlikely) {
         if (random() % 3 > 0) pairings.push_back({track, z, std::exp(12 * uniform(random) - 4), 0});
     const auto expected = exact(pairings, 4, 4);
     estimate_probabilities(pairings, 4, 4);
+    count_exchanges(pairings, 4, 4);
     for (std::size_t e = 0; e < pairings.size(); ++e) {
       worst = std::max(worst, std::abs(pairings[e].probability - expected[e]));
       if (pairings[e].probability < 1e-4) missed = std::max(missed, expected[e]);
@@ -72,6 +73,20 @@ TEST(Marginals, WithLoopsTellLikelyFromUnlikely) {
   EXPECT_LT(worst, 0.4);
   // So dense and so extreme, what is said to be negligible may be some ten times that.
   EXPECT_LT(missed, 1e-2);
+}
+
+TEST(Marginals, OfTwoThatMayExchangeAreNotAllForTheBetter) {
+  for (const double odds : {0.001, 0.04, 0.5, 1.0}) {
+    const double weight = 1e4;  // neither is missed
+    ScratchVector<Pairing> pairings{
+        {0, 0, weight, 0}, {0, 1, weight * odds, 0}, {1, 0, weight, 0}, {1, 1, weight, 0}};
+    const auto expected = exact(pairings, 2, 2);
+    estimate_probabilities(pairings, 2, 2);
+    count_exchanges(pairings, 2, 2);
+    // Whether there is an exchange is what is asked, not how probable it is to the percent.
+    for (std::size_t e = 0; e < pairings.size(); ++e)
+      EXPECT_GT(pairings[e].probability, 0.3 * expected[e]) << odds << ' ' << e;
+  }
 }
 
 }  // namespace
