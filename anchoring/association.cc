@@ -17,8 +17,9 @@ constexpr int kMiss = -1;    // in place of a detection
 constexpr int kUnmade = -2;  // a child leaf that no hypothesis has asked for yet
 
 /// Merging makes room: up to this many times `max` associations are looked at before the best `max`
-/// are kept, as long as one more carries more than 1e-4 of the weight so far: a parent of
-/// which not one is formed loses what it weighs.
+/// are kept, as long as one more carries more than 1e-4 of the weight so far. Of a parent of which
+/// not one is among them the best is formed, too: two like objects that have perhaps exchanged
+/// their places may be told apart only minutes later, against whatever odds.
 constexpr std::size_t kLookAhead = 2;
 constexpr double kWorthLookingAhead = -9.210340371976182;  // ln 1e-4
 
@@ -164,11 +165,13 @@ class Enough {
   Enough(const Limits& limits, const Allowance& allowance)
       : kept_(limits.max_hypotheses), allowed_(allowance.associations) {}
 
+  /// After so many whatever they weigh.
+  bool full(std::size_t formed) const {
+    return (allowed_ && formed >= *allowed_) || (kept_ > 0 && formed >= kLookAhead * kept_);
+  }
   /// After so many, the last of which carries `log_share` of their weight.
   bool are(std::size_t formed, double log_share) const {
-    if (allowed_ && formed >= *allowed_) return true;
-    return kept_ > 0 && formed >= kept_ &&
-           (formed >= kLookAhead * kept_ || log_share < kWorthLookingAhead);
+    return full(formed) || (kept_ > 0 && formed >= kept_ && log_share < kWorthLookingAhead);
   }
 
  private:
@@ -241,47 +244,58 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
   ScratchVector<int> given(tied.leaves.size(), kMiss);  // per leaf
   double least = kLogZero;                              // what is below has not been looked at
   ScratchVector<int> parent_of;                         // per hypothesis
-  bool heir = false;  // the most probable child of the world that was shown
-  while (auto next = ranked.next()) {
-    // Below this a weight stays below min_weight whatever else is found.
-    if (next->log_weight < total + background.log_least_weight) break;
-    total = log_add(total, next->log_weight);
-    Hypothesis h{next->log_weight, {}};
+  ScratchVector<char> formed(tied.hypotheses().size(), 0);
+  const auto form = [&](const Association& next) {
+    Hypothesis h{next.log_weight, {}};
     h.leaf.resize(joint.anchors.size(), Hypothesis::kNoLeaf);
     for (std::size_t z = 0; z < detections.size(); ++z) {
-      if (next->leaf_of[z] != Association::kNone)
-        given[next->leaf_of[z]] = static_cast<int>(z);
+      if (next.leaf_of[z] != Association::kNone)
+        given[next.leaf_of[z]] = static_cast<int>(z);
       else if (anchor_of[z] >= 0)
         h.leaf[anchor_of[z]] = 0;
     }
-    const Hypothesis& parent = tied.hypotheses()[next->parent];
+    const Hypothesis& parent = tied.hypotheses()[next.parent];
     for (std::size_t a = 0; a < old_anchors; ++a) {
       if (parent.leaf[a] == Hypothesis::kNoLeaf) continue;
       const int leaf = tied.first_leaf[a] + parent.leaf[a];
       h.leaf[a] = children.of(leaf, given[leaf], joint.anchors[a]);
     }
-    for (const int leaf : next->leaf_of)
+    for (const int leaf : next.leaf_of)
       if (leaf != Association::kNone) given[leaf] = kMiss;
-    if (!heir && next->parent == tied.leading) {
-      heir = true;
+    // The most probable child of the world that was shown is its heir.
+    if (next.parent == tied.leading && !formed[next.parent])
       for (std::size_t a = 0; a < old_anchors; ++a) joint.anchors[a].shown = h.leaf[a];
-    }
+    formed[next.parent] = 1;
     joint.hypotheses.push_back(std::move(h));
-    parent_of.push_back(next->parent);
+    parent_of.push_back(next.parent);
+  };
+  while (auto next = ranked.next()) {
+    // Below this a weight stays below min_weight whatever else is found.
+    if (next->log_weight < total + background.log_least_weight) break;
+    total = log_add(total, next->log_weight);
+    form(*next);
     if (enough.are(joint.hypotheses.size(), next->log_weight - total)) {
       least = next->log_weight;
       break;
     }
   }
-  const std::size_t formed = joint.hypotheses.size();
   double dropped = 0;
   if (least != kLogZero) {
-    const double looked_at = total;
+    double looked_at = total;
     const auto evidence = ranked.log_evidence();
     total = log_sum(evidence, [](double of_parent) { return of_parent; });
+    for (std::size_t p = 0; p < evidence.size(); ++p) {
+      if (formed[p] || enough.full(joint.hypotheses.size()) ||
+          evidence[p] < total + background.log_least_weight)
+        continue;
+      const Association best = ranked.best_of(static_cast<int>(p));
+      looked_at = log_add(looked_at, best.log_weight);
+      form(best);
+    }
     dropped = std::max(0.0, -std::expm1(looked_at - total));
     restore(parent_of, evidence, joint.hypotheses);
   }
+  const std::size_t looked = joint.hypotheses.size();
   out.log_evidence = total;
   for (const int z : detections) out.log_evidence += origins[z].log_weight;
   merge_equal(joint.hypotheses);
@@ -292,8 +306,8 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
     if (merge_nearest(joint, limits.max_hypotheses, background)) merge_alike(joint, background);
   }
   out.effort.cut =
-      tied.cut || (allowance.associations && formed >= *allowance.associations && dropped > 0);
-  out.effort.work = (tied.hypotheses().size() + formed) * joint.anchors.size();
+      tied.cut || (allowance.associations && looked >= *allowance.associations && dropped > 0);
+  out.effort.work = (tied.hypotheses().size() + looked) * joint.anchors.size();
   out.effort.dropped =
       tied.dropped + dropped + prune(joint.hypotheses, limits.max_hypotheses, limits.min_weight);
   out.clusters = split(joint, background, least == kLogZero ? 0 : std::exp(least - total));

@@ -11,6 +11,15 @@ constexpr double kFurther = 1.25;
 /// From here on all of it.
 constexpr double kMostReach = 100;
 
+template <typename Leaves>
+void choose(const Block& block, int rank, Leaves& leaf_of) {
+  for (std::size_t i = 0; i < block.detections.size(); ++i) {
+    const int leaf = block.ranked.leaf_of(rank, static_cast<int>(i));
+    leaf_of[block.detections[i]] =
+        leaf == Assignment::kNone ? Association::kNone : block.leaves[leaf];
+  }
+}
+
 }  // namespace
 
 RankedAssociations::RankedAssociations(const AssociationProblem& problem, double log_least)
@@ -78,29 +87,28 @@ int RankedAssociations::pop() {
   return log_weight >= best_ - reach_ ? node : kNothing;
 }
 
-Association RankedAssociations::association_of(int index) {
-  const Node& node = nodes_[index];
-  Choices& choices = choices_[node.parent];
-  const auto set = [](const Block& block, int rank, auto& leaf_of) {
-    for (std::size_t i = 0; i < block.detections.size(); ++i) {
-      const int leaf = block.ranked.leaf_of(rank, static_cast<int>(i));
-      leaf_of[block.detections[i]] =
-          leaf == Assignment::kNone ? Association::kNone : block.leaves[leaf];
-    }
-  };
+Association RankedAssociations::best_of(int parent) {
+  Choices& choices = choices_[parent];
   if (choices.leaf_of.empty()) {
     choices.leaf_of.assign(problem_.detections, Association::kNone);
     for (const int c : choices.components) {
       const Component& component = components_.at(c);
       for (std::size_t i = 0; i < component.detections.size(); ++i)
         choices.leaf_of[component.detections[i]] = component.best_leaf[i];
+      for (const Block& block : component.blocks) choose(block, 0, choices.leaf_of);
     }
-    for (const Block* block : choices.blocks) set(*block, 0, choices.leaf_of);
   }
-  Association found{node.parent, node.log_weight, {}};
-  found.leaf_of.assign(choices.leaf_of.begin(), choices.leaf_of.end());
+  Association best{parent, choices.best, {}};
+  best.leaf_of.assign(choices.leaf_of.begin(), choices.leaf_of.end());
+  return best;
+}
+
+Association RankedAssociations::association_of(int index) {
+  const Node& node = nodes_[index];
+  Association found = best_of(node.parent);
+  found.log_weight = node.log_weight;
   for (int n = index; n != kNothing && nodes_[n].block != kNothing; n = nodes_[n].rest)
-    set(*choices.blocks[nodes_[n].block], nodes_[n].rank, found.leaf_of);
+    choose(*choices_[node.parent].blocks[nodes_[n].block], nodes_[n].rank, found.leaf_of);
   return found;
 }
 

@@ -20,6 +20,9 @@ class RankedAssociations {
   /// The next best, or nothing when all have been given.
   std::optional<Association> next();
 
+  /// The best association of one parent, whether it has been given or not.
+  Association best_of(int parent);
+
   /// ln of the weight of all associations of each parent together, whether they have been given or
   /// not; as far as large components have been ranked.
   ScratchVector<double> log_evidence() const;
@@ -30,7 +33,7 @@ class RankedAssociations {
     double best = 0;  // log-weight
     ScratchVector<int> components;
     ScratchVector<Block*> blocks;
-    ScratchVector<int> leaf_of;  // in its best association, once that has been given
+    ScratchVector<int> leaf_of;  // in its best association, once that has been asked for
   };
   static constexpr int kNothing = -1;
   /// A parent's association: the choices of another node, but for one later block.

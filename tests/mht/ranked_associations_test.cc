@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -96,6 +97,23 @@ TEST(RankedAssociations, LargeProblemsAreRankedAsIfNotTakenApart) {
       ASSERT_NEAR(next->log_weight, as_one.gain(i) - 1, 1e-9) << trial << ' ' << i;
       ASSERT_TRUE(seen.insert({next->leaf_of.begin(), next->leaf_of.end()}).second)
           << "given twice";
+    }
+  }
+}
+
+TEST(RankedAssociations, BestOfAParentIsTheFirstOfIts) {
+  std::mt19937_64 random(4);
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto problem = random_problem(random, 4, 5, 3);
+    const auto expected = testing::every_association(problem);
+    RankedAssociations ranked(problem, -1);
+    for (int p = 0; p < static_cast<int>(problem.parents.size()); ++p) {
+      const auto first = std::find_if(expected.begin(), expected.end(),
+                                      [&](const Association& a) { return a.parent == p; });
+      const Association best = ranked.best_of(p);
+      EXPECT_EQ(best.parent, p);
+      EXPECT_NEAR(best.log_weight, first->log_weight, 1e-9) << trial;  // as above
+      EXPECT_EQ(best.leaf_of, first->leaf_of) << trial;
     }
   }
 }
