@@ -13,6 +13,17 @@ namespace {
 /// An anchor that is in all worlds but those of less probability, or in none but those, has no
 /// twin.
 constexpr double kRare = 1e-3;
+/// So many detections in common, the last ones, and versions that are alike: what was before that
+/// tells nothing more.
+constexpr std::size_t kLate = 5;
+
+/// Whether two versions were given the same detections last.
+bool same_of_late(const Leaf& a, const Leaf& b) {
+  const std::size_t count = std::min({kLate, std::max(a.recent.size(), b.recent.size())});
+  return a.recent.size() >= count && b.recent.size() >= count &&
+         std::equal(a.recent.end() - static_cast<std::ptrdiff_t>(count), a.recent.end(),
+                    b.recent.end() - static_cast<std::ptrdiff_t>(count));
+}
 
 class Twins {
  public:
@@ -59,7 +70,7 @@ class Twins {
     for (std::size_t l = 0; l < moving.size(); ++l) {
       if (moving[l] <= 0) continue;
       for (std::size_t k = 0; k < kept.size() && becomes[l] == Hypothesis::kNoLeaf; ++k)
-        if (kept[k] > 0 && to.leaves[k]->recent == other.leaves[l]->recent &&
+        if (kept[k] > 0 && same_of_late(*to.leaves[k], *other.leaves[l]) &&
             alike(*to.leaves[k], *other.leaves[l], std::min(kept[k], moving[l]), background_))
           becomes[l] = static_cast<int>(k);
       const int k = becomes[l];
