@@ -41,7 +41,7 @@ struct Background {
   std::shared_ptr<const Tiling> tiling;
   Walls walls;
   double largest_extent = 0;  ///< of any class, a diagonal, m; above 0: objects hide each other
-  bool shares = false;       ///< some class has a model whose objects share detections
+  bool shares = false;        ///< some class has a model whose objects share detections
   bool has_phantoms = false;  ///< any class is one
   std::vector<std::shared_ptr<const ArrivalModel>> arrivals;  ///< per class
   /// Per class; empty where no class has any.

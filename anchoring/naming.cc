@@ -24,7 +24,8 @@ void name_anchors(std::span<std::shared_ptr<const Cluster>> clusters, Belief& be
   for (std::size_t c = 0; c < clusters.size(); ++c)
     for (int a = 0; a < static_cast<int>(clusters[c]->anchors.size()); ++a) {
       const Anchor& anchor = *clusters[c]->anchors[a].anchor;
-      if (anchor.name.empty() && deserves_name(*clusters[c], a, background)) in_order[anchor.birth] = {c, a};
+      if (anchor.name.empty() && deserves_name(*clusters[c], a, background))
+        in_order[anchor.birth] = {c, a};
     }
   for (const auto& [birth, at] : in_order) {
     auto cluster = std::make_shared<Cluster>(*clusters[at.cluster]);

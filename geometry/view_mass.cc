@@ -178,8 +178,8 @@ double MapView::mass(const Gaussian& density) const {
   if (clear.range && clear.bearing && type_ == View::Type::kFrustum)
     return wedge_mass({mean.x(), mean.z()}, covariance({0, 2}, {0, 2}), elevation_min_,
                       elevation_max_ - elevation_min_);
-  const double sum = dims_ == 2 ? flat_mass(mean.head<2>(), flat)
-                                : solid_mass(mean, covariance, clear.range);
+  const double sum =
+      dims_ == 2 ? flat_mass(mean.head<2>(), flat) : solid_mass(mean, covariance, clear.range);
   return std::clamp(sum, 0.0, 1.0);
 }
 
