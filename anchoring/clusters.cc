@@ -11,8 +11,8 @@
 namespace anchord {
 namespace {
 
-/// Clusters in a chunk, at most. A frame copies the chunks that it changes, and looks at each
-/// chunk's reach: of 16 to 256, 64 was fastest with 100,000 anchors.
+/// Clusters in a chunk, at most: a frame copies the chunks that it changes, and looks at the reach
+/// of every chunk; with this many either costs little.
 constexpr std::size_t kMost = 64;
 
 using Entries = PoolVector<Clusters::Entry>;
