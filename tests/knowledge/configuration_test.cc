@@ -190,6 +190,29 @@ TEST(Configuration, AttributesChangeAtTheRatesOfAClass) {
   EXPECT_EQ(candle.changes[1].drift, 0.25);
 }
 
+TEST(Configuration, ObjectsMayShareDetectionsAndSensorsReportTwice) {
+  const Knowledge knowledge = with(R"(
+    "classes": {"default": {"models": [
+        {"kind": "constant_position", "position_psd": 0.01},
+        {"kind": "constant_position", "position_psd": 0.02,
+         "shared_detection": {"reach": 0.5, "stir": 0.25, "size": "size"}}]}},
+    "sensors": {"default": {"double_detection": 0.125}, "eye": {}})");
+  const auto& models = knowledge.classes[0].models;
+  EXPECT_FALSE(models[0].shares());
+  ASSERT_TRUE(models[1].shares());
+  EXPECT_EQ(models[1].shared_probability, 0.99);
+  EXPECT_EQ(models[1].reach, 0.5);
+  EXPECT_EQ(models[1].stir, 0.25);
+  EXPECT_EQ(models[1].growing, knowledge.find_attribute("size"));
+  EXPECT_EQ(knowledge.sensor("eye").double_detection, 0.125);
+  EXPECT_EQ(with("").sensor("eye").double_detection, 0);
+}
+
+TEST(Configuration, AFramesTimeIsNotBoundedUnlessItIsSaid) {
+  EXPECT_EQ(with("").limits.frame_budget, 0);
+  EXPECT_EQ(with(R"("hypotheses": {"frame_budget": 0.005})").limits.frame_budget, 0.005);
+}
+
 TEST(Configuration, NoSymbolIsRuledOutUnlessTheEngineIsExact) {
   EXPECT_EQ(with("").limits.min_symbol, 1e-6);
   EXPECT_EQ(with(R"("hypotheses": {"min_weight": 1e-3})").limits.min_symbol, 1e-6);
