@@ -48,19 +48,19 @@ TEST(Allocation, AWarmEngineAsksTheSystemForNextToNone) {
   Belief belief = *empty.belief();
   std::size_t warm = 0, cold = 0;
   double hypotheses = 0;
-  for (int step = 0; step < 300; ++step) {
+  for (int step = 0; step < 600; ++step) {
     const MapFrame frame = place_in_map(crowded(step, dice), background).value();
     const Visibility visibility(frame.view, frame.eye, background);
     const std::size_t before = allocations;
     fold(belief, frame, visibility, background);
-    (step < 100 ? cold : warm) += allocations - before;
+    (step < 300 ? cold : warm) += allocations - before;
     for (const auto& cluster : belief.clusters)
-      hypotheses += static_cast<double>(cluster->hypotheses.size()) / 300;
+      hypotheses += static_cast<double>(cluster->hypotheses.size()) / 600;
   }
   EXPECT_GT(hypotheses, 20) << "the scene must be work";
   EXPECT_GT(cold, 100u) << "the count must count";
   // Now and then there is more of something than ever before, or a name for what is new.
-  EXPECT_LT(warm, 200u / 2) << "in 200 frames";
+  EXPECT_LT(warm, 300u / 2) << "in 300 frames";
 }
 
 }  // namespace
