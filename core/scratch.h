@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#ifdef __has_feature  // clang
+#if defined(__SANITIZE_ADDRESS__)
+#define ANCHORD_SANITIZED  // each piece on its own, so that the sanitizer sees it
+#elif defined(__clang__)   // others may have a __has_feature of somebody's header
 #if __has_feature(address_sanitizer)
 #define ANCHORD_SANITIZED
 #endif
-#elif defined(__SANITIZE_ADDRESS__)
-#define ANCHORD_SANITIZED  // each piece on its own, so that the sanitizer sees it
 #endif
 
 namespace anchord {
