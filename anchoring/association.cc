@@ -6,6 +6,7 @@
 #include "anchoring/cluster.h"
 #include "anchoring/reduction.h"
 #include "anchoring/shared_detection.h"
+#include "anchoring/tied.h"
 #include "anchoring/twins.h"
 #include "core/log_probability.h"
 #include "mht/ranked_associations.h"
@@ -22,84 +23,6 @@ constexpr int kUnmade = -2;  // a child leaf that no hypothesis has asked for ye
 /// their places may be told apart only minutes later, against whatever odds.
 constexpr std::size_t kLookAhead = 2;
 constexpr double kWorthLookingAhead = -9.210340371976182;  // ln 1e-4
-
-/// The clusters that detections tie together, as one: anchors in order, leaves numbered through.
-struct Tied {
-  ScratchVector<const PredictedLeaf*> leaves;
-  ScratchVector<int> first_leaf;  // per anchor
-  ScratchVector<std::shared_ptr<const Anchor>> anchors;
-  const HypothesisSet* of_first = nullptr;  // while there is but one cluster
-  HypothesisSet kept;
-  int leading = 0;     // the hypothesis that was shown; -1 if it is no longer there
-  double dropped = 0;  // the probability of hypotheses that were left out
-  bool cut = false;    // by what is allowed, not by the limits
-
-  const HypothesisSet& hypotheses() const { return of_first ? *of_first : kept; }
-  void keep(HypothesisSet set) {
-    kept = std::move(set);
-    of_first = nullptr;
-  }
-};
-
-/// `most`: so many hypotheses may be kept, if that is less than the limits say.
-Tied tie(const ScratchVector<PredictedCluster>& clusters, const Limits& limits,
-         std::optional<std::size_t> most) {
-  Tied tied;
-  for (const PredictedCluster& c : clusters) {
-    for (std::size_t a = 0; a < c.leaves.size(); ++a) {
-      tied.first_leaf.push_back(static_cast<int>(tied.leaves.size()));
-      tied.anchors.push_back(c.cluster->anchors[a].anchor);
-      for (const PredictedLeaf& leaf : c.leaves[a]) tied.leaves.push_back(&leaf);
-    }
-    if (&c == &clusters.front())
-      tied.of_first = &c.cluster->hypotheses;
-    else
-      tied.keep(join(tied.hypotheses(), c.cluster->hypotheses, limits.max_hypotheses,
-                     limits.min_weight, &tied.dropped));
-  }
-  if (clusters.empty()) tied.keep({{0.0, {}}});
-  if (most && tied.hypotheses().size() > *most) {
-    HypothesisSet best(tied.hypotheses());
-    tied.cut = true;
-    tied.dropped += prune(best, static_cast<int>(*most), 0);
-    tied.keep(std::move(best));
-  }
-  const auto was_shown = [&](const Hypothesis& h) {
-    std::size_t at = 0;
-    for (const PredictedCluster& c : clusters)
-      for (const int leaf : c.cluster->hypotheses[c.cluster->leading].leaf)
-        if (h.leaf[at++] != leaf) return false;
-    return true;
-  };
-  const HypothesisSet& all = tied.hypotheses();
-  const auto shown = std::find_if(all.begin(), all.end(), was_shown);
-  tied.leading = shown == all.end() ? -1 : static_cast<int>(shown - all.begin());
-  return tied;
-}
-
-AssociationProblem problem_of(const Tied& tied, const ScratchVector<int>& detections) {
-  AssociationProblem problem;
-  problem.detections = static_cast<int>(detections.size());
-  for (const PredictedLeaf* leaf : tied.leaves) {
-    auto& gains = problem.gains.emplace_back();
-    for (const auto& [z, log_gain] : leaf->gains) {
-      const auto at = std::lower_bound(detections.begin(), detections.end(), z);
-      if (at != detections.end() && *at == z)
-        gains.push_back({static_cast<int>(at - detections.begin()), log_gain});
-    }
-  }
-  for (const Hypothesis& h : tied.hypotheses()) {
-    AssociationProblem::Parent parent{h.log_weight, {}};
-    for (std::size_t a = 0; a < h.leaf.size(); ++a) {
-      if (h.leaf[a] == Hypothesis::kNoLeaf) continue;
-      const int leaf = tied.first_leaf[a] + h.leaf[a];
-      parent.leaves.push_back(leaf);
-      parent.log_weight += tied.leaves[leaf]->log_miss;
-    }
-    problem.parents.push_back(std::move(parent));
-  }
-  return problem;
-}
 
 /// The leaves after the frame, made when a hypothesis first needs them.
 class Children {

@@ -5,6 +5,7 @@
 
 #include "anchoring/association.h"
 #include "anchoring/budget.h"
+#include "anchoring/concern.h"
 #include "anchoring/coupling.h"
 #include "anchoring/naming.h"
 #include "anchoring/shared_detection.h"
@@ -12,8 +13,6 @@
 
 namespace anchord {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Detections that come from a cluster with less probability tie it to no other. On simulated
 /// crowds from 1e-4 to 1e-2 makes little difference; without, identity is kept worse, since the
@@ -115,41 +114,6 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
   }
   out.cluster = std::move(cluster);
   return out;
-}
-
-Concern::Concern(const MapFrame& frame, const Background& background)
-    : utime_(frame.utime), everything_(false) {
-  if (!frame.view.sees_nothing())
-    windows_.push_back(
-        Window::of(frame.utime, frame.view.bounds(), background.sight_deviations, 0, background));
-  if (frame.detections.empty()) return;
-  std::array<double, 4> box{kInfinity, kInfinity, -kInfinity, -kInfinity};
-  double widest = 0;
-  for (const MapDetection& z : frame.detections) {
-    const auto& [mean, covariance] = z.position;
-    box = {std::min(box[0], mean.x()), std::min(box[1], mean.y()), std::max(box[2], mean.x()),
-           std::max(box[3], mean.y())};
-    widest = std::max({widest, covariance(0, 0), covariance(1, 1)});
-    if (!z.object.empty()) named_.push_back(z.object);
-  }
-  everything_ = std::isinf(background.gate_distance2);
-  if (!everything_)
-    windows_.push_back(
-        Window::of(frame.utime, box, std::sqrt(background.gate_distance2), widest, background));
-}
-
-bool Concern::with(const Reach& reach) const {
-  if (everything_ || reach.due <= utime_) return true;
-  return std::any_of(windows_.begin(), windows_.end(),
-                     [&](const Window& window) { return reach.meets(window); });
-}
-
-bool Concern::names(const Cluster& cluster) const {
-  const auto called = [&](const AnchorTree& tree) {
-    return std::any_of(named_.begin(), named_.end(),
-                       [&](const std::string& name) { return tree.anchor->is_called(name); });
-  };
-  return std::any_of(cluster.anchors.begin(), cluster.anchors.end(), called);
 }
 
 void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/memory_allocator.h"
+
 namespace anchord {
 
 /// Memory for what outlives a frame, and is made anew by the thousand in each: what is given back
@@ -19,15 +21,7 @@ class Pool {
 };
 
 template <typename T>
-struct PoolAllocator {
-  using value_type = T;
-  PoolAllocator() = default;
-  template <typename U>
-  PoolAllocator(const PoolAllocator<U>&) {}  // NOLINT: allocators convert
-  T* allocate(std::size_t n) { return static_cast<T*>(Pool::allocate(n * sizeof(T))); }
-  void deallocate(T* memory, std::size_t n) noexcept { Pool::deallocate(memory, n * sizeof(T)); }
-  bool operator==(const PoolAllocator&) const { return true; }
-};
+using PoolAllocator = MemoryAllocator<T, Pool>;
 
 template <typename T>
 using PoolVector = std::vector<T, PoolAllocator<T>>;

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/memory_allocator.h"
+
 #if defined(__SANITIZE_ADDRESS__)
 #define ANCHORD_SANITIZED  // each piece on its own, so that the sanitizer sees it
 #elif defined(__clang__)   // others may have a __has_feature of somebody's header
@@ -40,7 +42,8 @@ class Scratch {
     return std::exchange(free_.next, free_.next + size);
 #endif
   }
-  static void deallocate([[maybe_unused]] void* memory) {
+  /// Nothing is given back before the Scratch ends.
+  static void deallocate([[maybe_unused]] void* memory, std::size_t) noexcept {
 #ifdef ANCHORD_SANITIZED
     ::operator delete(memory);
 #endif
@@ -59,15 +62,7 @@ class Scratch {
 };
 
 template <typename T>
-struct ScratchAllocator {
-  using value_type = T;
-  ScratchAllocator() = default;
-  template <typename U>
-  ScratchAllocator(const ScratchAllocator<U>&) {}  // NOLINT: allocators convert
-  T* allocate(std::size_t n) { return static_cast<T*>(Scratch::allocate(n * sizeof(T))); }
-  void deallocate(T* memory, std::size_t) { Scratch::deallocate(memory); }
-  bool operator==(const ScratchAllocator&) const { return true; }
-};
+using ScratchAllocator = MemoryAllocator<T, Scratch>;
 
 template <typename T>
 using ScratchVector = std::vector<T, ScratchAllocator<T>>;

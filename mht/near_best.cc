@@ -48,13 +48,13 @@ void NearBest::find_ways() {
 
 bool NearBest::find_all(int most_steps) {
   steps_left_ = most_steps;
-  return note(0) && chains_from(0, 0) && cycles_from(0, 0);
+  note(0);
+  return chains_from(0, 0) && cycles_from(0, 0);
 }
 
-bool NearBest::note(double loss) {
+void NearBest::note(double loss) {
   found_.push_back({loss, choices_.size()});
   choices_.insert(choices_.end(), chosen_.begin(), chosen_.end());
-  return true;
 }
 
 /// More changes: chains, whose first is `first` or a later one; then cycles.
@@ -85,8 +85,9 @@ bool NearBest::go_on(int at, int start, double loss, bool chain) {
       if (--steps_left_ < 0) return false;
       chosen_[at] = choice;
       if (is_free) taken_[choice] = 1;
-      whole = note(so_far) && (!chain || chains_from(start + 1, so_far)) &&
-              cycles_from(chain ? 0 : start + 1, so_far);
+      note(so_far);
+      whole =
+          (!chain || chains_from(start + 1, so_far)) && cycles_from(chain ? 0 : start + 1, so_far);
       if (is_free) taken_[choice] = 0;
       continue;
     }

@@ -16,13 +16,16 @@ class NearBest {
   /// Assignments that lose more than `most_loss` are left out. The arguments must outlive this.
   NearBest(const PairGains& gains, const Assignment& best, double most_loss);
 
+  /// One of them.
   struct Found {
-    double loss;
+    double loss;        ///< of gain, against the optimal one
     std::size_t first;  ///< where its choices begin in choices(), one per detection
   };
-  /// False if more than `most_steps` steps are needed; what has been found is of no use then.
+  /// Finds them all, the optimal one first, the others in no order. False if that takes more than
+  /// `most_steps` pairs; what has been found is of no use then.
   bool find_all(int most_steps);
   const ScratchVector<Found>& found() const { return found_; }
+  /// Leaves, or Assignment::kNone, of all that were found.
   const ScratchVector<int>& choices() const { return choices_; }
 
  private:
@@ -35,7 +38,7 @@ class NearBest {
   bool chains_from(int first, double loss);
   bool cycles_from(int first, double loss);
   bool go_on(int at, int start, double loss, bool chain);
-  bool note(double loss);
+  void note(double loss);
 
   const PairGains& gains_;
   const Assignment& best_;

@@ -26,17 +26,6 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 namespace anchord {
 namespace {
 
-/// Like objects at rest in two groups, some missed, with clutter now and then.
-Frame crowded(int step, enumeration::Dice& dice) {
-  std::vector<Detection> detections;
-  for (int object = 0; object < 12; ++object)
-    if (dice.chance(0.9))
-      detections.push_back(at(1 + 2 * (object / 6) + 0.2 * (object % 6) + 0.05 * dice.normal(),
-                              1 + 0.05 * dice.normal(), 0.0025));
-  if (dice.chance(0.3)) detections.push_back(at(dice.uniform(0, 6), dice.uniform(0, 4), 0.0025));
-  return frame(0.1 * step, detections);
-}
-
 TEST(Allocation, AWarmEngineAsksTheSystemForNextToNone) {
 #ifdef ANCHORD_SANITIZED
   GTEST_SKIP() << "with the sanitizer nothing is kept to be used again";
@@ -49,10 +38,11 @@ TEST(Allocation, AWarmEngineAsksTheSystemForNextToNone) {
   std::size_t warm = 0, cold = 0;
   double hypotheses = 0;
   for (int step = 0; step < 600; ++step) {
-    const MapFrame frame = place_in_map(crowded(step, dice), background).value();
-    const Visibility visibility(frame.view, frame.eye, background);
+    const MapFrame placed =
+        place_in_map(frame(0.1 * step, rows(dice, 12, 6, 2, 0.05, 0.3)), background).value();
+    const Visibility visibility(placed.view, placed.eye, background);
     const std::size_t before = allocations;
-    fold(belief, frame, visibility, background);
+    fold(belief, placed, visibility, background);
     (step < 300 ? cold : warm) += allocations - before;
     for (const auto& cluster : belief.clusters)
       hypotheses += static_cast<double>(cluster->hypotheses.size()) / 600;

@@ -21,12 +21,7 @@ std::vector<Frame> crowd(std::uint64_t seed) {
   Dice dice(random);
   std::vector<Frame> frames;
   for (int step = 0; step < 12; ++step) {
-    std::vector<Detection> detections;
-    for (int object = 0; object < 10; ++object)
-      if (dice.chance(0.9))
-        detections.push_back(at(1 + 3 * (object / 5) + 0.2 * (object % 5) + 0.1 * dice.normal(),
-                                1 + 0.1 * dice.normal(), 0.01));
-    if (dice.chance(0.5)) detections.push_back(at(dice.uniform(0, 6), dice.uniform(0, 4), 0.01));
+    const auto detections = rows(dice, 10, 5, 3, 0.1, 0.5);
     frames.push_back(frame(0.1 * step, detections, step % 2 ? "left" : "right"));
   }
   return frames;

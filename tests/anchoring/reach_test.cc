@@ -6,6 +6,7 @@
 #include <set>
 
 #include "anchoring/association.h"
+#include "anchoring/concern.h"
 #include "tests/anchoring/random_scene.h"
 #include "tests/anchoring/small_world.h"
 

@@ -77,6 +77,19 @@ Frame frame(double seconds, std::vector<Detection> detections, const std::string
   return out;
 }
 
+std::vector<Detection> rows(enumeration::Dice& dice, int objects, int row, double apart,
+                            double deviation, double clutter) {
+  const double variance = deviation * deviation;
+  std::vector<Detection> seen;
+  for (int object = 0; object < objects; ++object)
+    if (dice.chance(0.9))
+      seen.push_back(
+          at(1 + apart * (object / row) + 0.2 * (object % row) + deviation * dice.normal(),
+             1 + deviation * dice.normal(), variance));
+  if (dice.chance(clutter)) seen.push_back(at(dice.uniform(0, 6), dice.uniform(0, 4), variance));
+  return seen;
+}
+
 Frame blink(double seconds) {
   Frame out = frame(seconds, {}, "shut_eye");
   out.view = View{};

@@ -9,6 +9,7 @@
 #include "anchoring/world.h"
 #include "core/frame.h"
 #include "knowledge/knowledge.h"
+#include "tests/anchoring/dice.h"
 
 namespace anchord {
 
@@ -35,6 +36,12 @@ Detection at(double x, double y, double variance = 1e-4);
 Detection at(double x, double y, const std::string& attribute, const std::string& symbol, double p);
 
 Frame frame(double seconds, std::vector<Detection> detections, const std::string& sensor = "eye");
+
+/// What is seen of like objects at rest, 0.2 m apart in rows of `row` that begin at (1, 1) and each
+/// `apart` m further: nine in ten of them, with noise of that deviation (m), and with probability
+/// `clutter` something anywhere.
+std::vector<Detection> rows(enumeration::Dice& dice, int objects, int row, double apart,
+                            double deviation, double clutter);
 
 /// A frame that looks at nothing, from a sensor of its own: time passes.
 Frame blink(double seconds);
