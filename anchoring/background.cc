@@ -55,7 +55,8 @@ Background::Dynamics dynamics_of(const ObjectClass& c) {
         if (c.models[from].tracked()) d.rates(from, to) += c.models[to].rate;
   for (const Transition& t : c.transitions) {
     d.rates(t.from, t.to) += t.rate;
-    if (t.rate > 0 && c.models[t.from].tracked() && c.models[t.to].tracked()) d.exchanges = true;
+    const BehaviourModel &from = c.models[t.from], &to = c.models[t.to];
+    if (t.rate > 0 && from.tracked() && to.tracked() && !from.moves_like(to)) d.exchanges = true;
   }
   d.moves = d.rates.maxCoeff() > 0;
   for (const AttributeChange& change : c.changes) d.changes.push_back(chain_of(change));

@@ -26,8 +26,8 @@ struct Background {
   struct Dynamics {
     ModelMatrix rates;         ///< 1/s between models
     bool moves = false;        ///< any rate at all
-    bool exchanges = false;    ///< between tracked models: their densities are merged by moments,
-                               ///< so two steps are not one long one
+    bool exchanges = false;    ///< between tracked models of unlike motion: densities are merged by
+                               ///< moments, so two steps are not one long one
     int first_detectable = 0;  ///< the tracked model that a found object goes to
     std::vector<SymbolChain> changes;  ///< of attributes, as ObjectClass::changes
   };

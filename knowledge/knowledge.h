@@ -40,6 +40,10 @@ struct BehaviourModel {
 
   bool tracked() const { return kind != Kind::kSomewhere; }
   bool shares() const { return shared_probability > 0; }
+  /// Whether an object moves in it as in the other, both tracked, whatever else is different.
+  bool moves_like(const BehaviourModel& other) const {
+    return tracked() && kind == other.kind && psd == other.psd && !shares() && !other.shares();
+  }
 };
 
 /// `constant_position`, `constant_velocity`, `somewhere`.

@@ -24,6 +24,11 @@ ModelMatrix transition_probabilities(const ModelMatrix& rates, double dt) {
     q(i, i) = 0;
     q(i, i) = -q.row(i).sum();
   }
+  if (n == 2) {
+    const double total = -q(0, 0) - q(1, 1);
+    const ModelMatrix p = ModelMatrix::Identity(2, 2);
+    return total > 0 ? ModelMatrix(p - q * (std::expm1(-total) / total)) : p;
+  }
   if (single_step(rates)) {
     ModelMatrix p = ModelMatrix::Identity(n, n);
     for (int i = 0; i < n; ++i) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <random>
 
@@ -125,6 +126,49 @@ TEST_F(Leaves, TwoPredictionsEqualOneLongOne) {
     predict(twice, end, background());
     expect_alike(once, twice, background());
   }
+}
+
+/// Both hide while they go on as before; the box also stops hiding.
+constexpr const char* kHiding = R"({"classes": {
+    "cup": {"models": [{"kind": "constant_velocity", "acceleration_psd": 0.01,
+                        "initial_velocity_variance": 0.02},
+                       {"kind": "constant_velocity", "acceleration_psd": 0.01,
+                        "initial_velocity_variance": 0.02, "detectable": false},
+                       {"kind": "somewhere", "place": "table", "rate": 0.02}],
+            "transitions": [{"from": 0, "to": 1, "rate": 0.5}]},
+    "box": {"models": [{"kind": "constant_position", "position_psd": 0.001},
+                       {"kind": "constant_position", "position_psd": 0.001,
+                        "detectable": false}],
+            "transitions": [{"from": 0, "to": 1, "rate": 0.1},
+                            {"from": 1, "to": 0, "rate": 2}]}}})";
+
+struct HidingLeaves : Leaves {
+  HidingLeaves() : Leaves(kHiding) {}
+};
+
+TEST_F(HidingLeaves, TwoPredictionsEqualOneLongOneWhereTheMotionIsTheSame) {
+  for (int n = 0; n < 200; ++n) {
+    const MapFrame f = random_frame();
+    Leaf once = first_leaf(f.detections[0], std::array{dice.uniform(0.1, 1), dice.uniform(0.1, 1)},
+                           dice.uniform(0.1, 1), at_second(0), background());
+    for (int i = dice.integer(0, 6); i > 0; --i) live(once);
+    Leaf twice = once;
+    const Utime end = once.utime + from_seconds(dice.scale(0.01, 100));
+    predict(once, end, background());
+    predict(twice, end - (end - twice.utime) / 3, background());
+    predict(twice, end, background());
+    expect_alike(once, twice, background());
+  }
+}
+
+TEST_F(HidingLeaves, OnlyUnlikeMotionsMustBeSteppedThrough) {
+  EXPECT_FALSE(background().dynamics[0].exchanges);
+  EXPECT_FALSE(background().dynamics[1].exchanges);
+  auto shaken = nlohmann::json::parse(kHiding);
+  shaken["classes"]["box"]["models"][1]["position_psd"] = 0.002;
+  const World other(small_world(shaken.dump()));
+  EXPECT_FALSE(other.background()->dynamics[0].exchanges);
+  EXPECT_TRUE(other.background()->dynamics[1].exchanges);
 }
 
 TEST_F(Leaves, WhatSumsToOneStaysSo) {
