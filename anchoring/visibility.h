@@ -36,6 +36,7 @@ class Visibility {
   double volume() const { return volume_; }
 
  private:
+  double exactness(double p) const;
   /// Whether a density is so far from all that is in view that nothing of it counts.
   bool out_of_view(const Kinematic& density) const;
   /// The share of the part in view of a density that no wall hides.

@@ -11,6 +11,8 @@
 
 namespace anchord {
 
+struct MassPrecision;
+
 /// What a sensor could see, placed in the map: a View and a Pose (its mean). Angles are compared
 /// modulo 2 pi, ranges are Euclidean from the sensor. In a 2-D world only x, y and yaw of the pose
 /// and range and bearing of the view are used (of a frustum: hfov and range).
@@ -29,8 +31,8 @@ class MapView {
   /// The probability that a point drawn from `density` is in view. In closed form where only
   /// planes cut the density (Owen's T); where ranges or cones do, by 1-D (2-D world) or 2-D (3-D
   /// world) adaptive quadrature over directions, closed form along each ray; polygons as mass()
-  /// of gaussian_mass.h. Error below 1e-6.
-  double mass(const Gaussian& density) const;
+  /// of gaussian_mass.h. Error below 1e-6, or about `tolerance` where that is more, at less cost.
+  double mass(const Gaussian& density, double tolerance = 0) const;
 
   /// The share of an axis-aligned box of the map that is in view. 0 and 1 are exact; a box on the
   /// edge is sampled (error below 0.05).
@@ -68,10 +70,11 @@ class MapView {
   double cell_share(const Eigen::Vector3d& p, const Eigen::Vector3d& extent) const;
   double polygon_share(const Eigen::Vector3d& box_min, const Eigen::Vector3d& box_max) const;
   Clearance clearance(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance,
-                      const Depth& at_mean, double sphere) const;
-  double flat_mass(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance) const;
-  double solid_mass(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance,
-                    bool any_range) const;
+                      const Depth& at_mean, double sphere, const MassPrecision& precision) const;
+  double flat_mass(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance,
+                   const MassPrecision& precision) const;
+  double solid_mass(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance, bool any_range,
+                    const MassPrecision& precision) const;
 
   View::Type type_ = View::Type::kNone;
   int dims_ = 3;

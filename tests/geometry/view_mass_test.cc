@@ -94,6 +94,28 @@ TEST(ViewMass, OfFrustumsAgreesWithSamplingIn3D) {
   compare_with_sampling(View::Type::kFrustum, 3, 4);
 }
 
+TEST(ViewMass, IsAsExactAsItIsWanted) {
+  Sampler sampler(11);
+  int rougher = 0;
+  for (int i = 0; i < 400; ++i) {
+    const int dims = i % 4 ? 3 : 2;
+    const View view = random_view(sampler, i % 3 ? View::Type::kSector : View::Type::kFrustum);
+    const Pose pose = exact_pose({0, 0, 0}, sampler.orientation());
+    Gaussian density{3 * Eigen::Vector3d(sampler.normal(), sampler.normal(), sampler.normal()),
+                     sampler.covariance(0.01, i % 3 ? 1 : 8, dims)};
+    if (dims == 2) density.mean.z() = 0;
+    const MapView at = placed(view, pose, dims);
+    const double exact = at.mass(density);
+    for (const double tolerance : {1e-5, 1e-4, 1e-3, 1e-2}) {
+      const double rough = at.mass(density, tolerance);
+      // Each of the limits may be left out, and two integrals end early.
+      EXPECT_NEAR(rough, exact, 3 * tolerance) << "density " << i;
+      rougher += rough != exact;
+    }
+  }
+  EXPECT_GT(rougher, 100) << "nothing was spared";
+}
+
 TEST(ViewMass, AroundTheSensorIsTheShareOfTheCircleOrSphere) {
   // A round density about the sensor: angles and range are independent, Rayleigh in 2-D and
   // Maxwell in 3-D.
