@@ -46,6 +46,17 @@ class Twins {
     return out;
   }
 
+  /// Whether any of their versions were given the same detections last.
+  bool may_be_one(int a, int b) const {
+    const auto& others = cluster_.anchors[b].leaves;
+    const auto has_twin = [&](const auto& leaf) {
+      return std::any_of(others.begin(), others.end(),
+                         [&](const auto& other) { return same_of_late(*leaf, *other); });
+    };
+    const auto& leaves = cluster_.anchors[a].leaves;
+    return std::any_of(leaves.begin(), leaves.end(), has_twin);
+  }
+
   /// How much there is to be said for an anchor's name.
   double claim(int a) const {
     const AnchorTree& tree = cluster_.anchors[a];
@@ -112,6 +123,7 @@ void join_twins(Cluster& cluster, const Background& background) {
   for (std::size_t i = 0; i < candidates.size(); ++i)
     for (std::size_t j = i + 1; j < candidates.size(); ++j) {
       const int older = candidates[i], newer = candidates[j];
+      if (!twins.may_be_one(older, newer)) continue;
       const bool keep_older = twins.claim(older) >= twins.claim(newer);
       any = twins.join(keep_older ? older : newer, keep_older ? newer : older) || any;
     }
