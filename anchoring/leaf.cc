@@ -23,14 +23,12 @@ void move_density(ModelState& state, const BehaviourModel& model, double dt, int
     predict_constant_position(*kinematic, model.psd, dt, dims);
 }
 
-/// The behaviour weights' Markov chain, and the densities that follow what flows.
-void flow(Leaf& leaf, double dt, const Background& background) {
-  const auto& dynamics = background.dynamics[leaf.model_class];
-  if (!dynamics.moves || dt == 0) return;
+/// The behaviour weights after the transitions p, and the densities that follow what flows.
+template <typename Matrix>
+void flow(Leaf& leaf, const Matrix& p, const Background& background) {
   const auto& models = background.object_class(leaf.model_class).models;
-  const ModelMatrix p = transition_probabilities(dynamics.rates, dt);
   const auto before = leaf.models;
-  const int n = static_cast<int>(dynamics.rates.rows());  // a lost model neither gives nor takes
+  const int n = static_cast<int>(p.rows());  // a lost model neither gives nor takes
   for (int to = 0; to < n; ++to) {
     double weight = before[to].weight * p(to, to);
     for (int from = 0; from < n; ++from) {
@@ -49,6 +47,16 @@ void flow(Leaf& leaf, double dt, const Background& background) {
     }
     leaf.models[to].weight = weight;
   }
+}
+
+/// The behaviour weights' Markov chain.
+void flow(Leaf& leaf, double dt, const Background& background) {
+  const auto& dynamics = background.dynamics[leaf.model_class];
+  if (!dynamics.moves || dt == 0) return;
+  if (dynamics.rates.rows() <= kFewModels)
+    flow(leaf, transition_probabilities(FewModelsMatrix(dynamics.rates), dt), background);
+  else
+    flow(leaf, transition_probabilities(dynamics.rates, dt), background);
 }
 
 /// Attributes change at the rates of the class whose models the leaf has.

@@ -32,7 +32,7 @@ struct ModelState {
 /// `utime`. Class, models and position are kept as a product of marginals.
 struct Leaf {
   double existence = 0;                                  ///< r, phantoms included
-  boost::container::small_vector<double, 4> classes;     ///< b(c), sums to 1
+  boost::container::small_vector<double, 8> classes;     ///< b(c), sums to 1
   int model_class = 0;                                   ///< the class whose models these are
   boost::container::small_vector<ModelState, 2> models;  ///< in the order of that class
   std::vector<AttributeBelief> attributes;               ///< those reported, ascending

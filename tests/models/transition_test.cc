@@ -105,7 +105,19 @@ TEST(TransitionProbabilities, NoTimeOrNoRatesChangeNothing) {
   ModelMatrix rates(2, 2);
   rates << 0, 0.5, 0.25, 0;
   EXPECT_TRUE(transition_probabilities(rates, 0).isIdentity(0));
-  EXPECT_TRUE(transition_probabilities(ModelMatrix::Zero(3, 3), 5).isIdentity(0));
+  EXPECT_TRUE(transition_probabilities(ModelMatrix(ModelMatrix::Zero(3, 3)), 5).isIdentity(0));
+}
+
+TEST(TransitionProbabilities, OfFewModelsAreTheSame) {
+  std::mt19937_64 random(5);
+  Dice dice(random);
+  for (int n = 1; n <= kFewModels; ++n) {
+    ModelMatrix rates(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) rates(i, j) = dice.uniform(0, 2);
+    EXPECT_EQ(ModelMatrix(transition_probabilities(FewModelsMatrix(rates), 0.7)),
+              transition_probabilities(rates, 0.7));
+  }
 }
 
 TEST(TransitionProbabilities, TwoModelsInClosedForm) {
