@@ -77,8 +77,9 @@ Occlusion::Occlusion(const Belief& belief, const MapFrame& frame, const Backgrou
   if (!frame.eye || frame.view.sees_nothing() || background.largest_extent == 0) return;
   eye_ = *frame.eye;
   const auto seen = frame.view.bounds();
-  const Window window =
+  Window window =
       Window::of(frame.utime, between(eye_, seen, background.largest_extent), kFar, 0, background);
+  window.places = 0;  // what may be somewhere hides nothing
   const auto may_hide = [&](const Reach& reach) { return reach.meets(window); };
   belief.clusters.visit(may_hide, [&](Clusters::Place, const auto& cluster) {
     for (std::size_t a = 0; a < cluster->anchors.size(); ++a) {

@@ -137,7 +137,7 @@ void Somewhere::enter(double weight, double entering) {
 }
 
 void Somewhere::miss(double p, const std::vector<double>& visible) {
-  auto next = std::make_shared<std::vector<double>>(visible.size());
+  auto next = make_pooled<PoolVector<double>>(visible.size());
   // Summed, not 1 - p mass(visible): each miss would divide the rounding error of the sum by that.
   double rest = 0;
   for (std::size_t i = 0; i < visible.size(); ++i) {
@@ -153,7 +153,7 @@ Somewhere Somewhere::merge(double weight_a, const Somewhere& a, double weight_b,
                            const Somewhere& b) {
   if (a.looked_at_ == b.looked_at_ && a.weight_looked_ == b.weight_looked_) return a;
   const double u = weight_a / (weight_a + weight_b);
-  auto mixed = std::make_shared<std::vector<double>>(a.footprint_->cells.size());
+  auto mixed = make_pooled<PoolVector<double>>(a.footprint_->cells.size());
   for (std::size_t i = 0; i < mixed->size(); ++i)
     (*mixed)[i] = u * a.relative(i) + (1 - u) * b.relative(i);
   Somewhere out(a.footprint_);

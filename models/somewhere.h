@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/pool.h"
 #include "geometry/gaussian.h"
 #include "geometry/grid.h"
 #include "geometry/region.h"
@@ -82,7 +83,7 @@ class Somewhere {
 
   std::shared_ptr<const Footprint> footprint_;
   /// The density is weight_looked_ * looked_at_ + (1 - weight_looked_), over the uniform density.
-  std::shared_ptr<const std::vector<double>> looked_at_;
+  std::shared_ptr<const PoolVector<double>> looked_at_;
   double weight_looked_ = 0;
 };
 
