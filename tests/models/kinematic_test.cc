@@ -192,5 +192,71 @@ TEST_P(KinematicIn, MergeKeepsTheVelocityToo) {
   }
 }
 
+/// A half-plane x > edge is seen of a density, or a half-space.
+SeenPart seen_beyond(const Kinematic& state, double edge) {
+  const double sigma = std::sqrt(state.pp(0, 0)), h = (edge - state.position.x()) / sigma;
+  SeenPart seen;
+  seen.mass = std::erfc(h / std::sqrt(2)) / 2;
+  const double bell = std::exp(-h * h / 2) / std::sqrt(2 * std::numbers::pi) / seen.mass;
+  seen.relative.gradient.x() = bell / sigma;
+  seen.relative.hessian(0, 0) = bell * h / (sigma * sigma);
+  return seen;
+}
+
+Kinematic moving(int dims) {
+  Kinematic state = kinematic_at({{1, 2, 0}, 0.5 * Eigen::Matrix3d::Identity()}, 0.2, dims);
+  state.velocity = {0.1, -0.3, dims == 3 ? 0.2 : 0};
+  state.pp(0, 1) = state.pp(1, 0) = 0.2;
+  if (dims == 2) state.pp(2, 2) = 0;
+  predict_constant_velocity(state, 0.1, 1.5, dims);
+  return state;
+}
+
+TEST(Kinematic, AMissLeavesTheRestOfWhatIsSeen) {
+  for (const int dims : {2, 3})
+    for (const double edge : {-2.0, 0.5, 1.0, 3.0}) {
+      const Kinematic before = moving(dims);
+      const SeenPart seen = seen_beyond(before, edge);
+      const double p = 0.8;
+      Kinematic missed = before;
+      miss(missed, p, seen, dims);
+      // A normal density beyond the edge has this mean and variance (and what follows from x).
+      const double h = (edge - before.position.x()) / std::sqrt(before.pp(0, 0));
+      const double shift = seen.relative.gradient.x() * std::sqrt(before.pp(0, 0));
+      const double less = shift * (shift - h);
+      Kinematic part = before;
+      const double gain = shift / std::sqrt(before.pp(0, 0));
+      const Eigen::Vector3d by_position = before.pp.col(0), by_velocity = before.pv.row(0);
+      part.position += gain * by_position;
+      part.velocity += gain * by_velocity;
+      const double share = -less / before.pp(0, 0);
+      part.pp += share * by_position * by_position.transpose();
+      part.pv += share * by_position * by_velocity.transpose();
+      part.vv += share * by_velocity * by_velocity.transpose();
+      // Both together are what was there before.
+      const double found = p * seen.mass;
+      const Kinematic both = merge(1 - found, missed, found, part);
+      EXPECT_TRUE(both.position.isApprox(before.position, 1e-12));
+      EXPECT_TRUE(both.velocity.isApprox(before.velocity, 1e-12));
+      EXPECT_TRUE(both.pp.isApprox(before.pp, 1e-12));
+      EXPECT_TRUE(both.pv.isApprox(before.pv, 1e-12));
+      EXPECT_TRUE(both.vv.isApprox(before.vv, 1e-12));
+    }
+}
+
+TEST(Kinematic, AMissKeepsVariancesPositive) {
+  for (const int dims : {2, 3})
+    for (const double p : {0.5, 0.999}) {
+      Kinematic state = moving(dims);
+      SeenPart seen = seen_beyond(state, 1);
+      seen.relative.hessian *= 50;  // no part of any normal density
+      miss(state, p, seen, dims);
+      Eigen::MatrixXd all(2 * dims, 2 * dims);
+      all << state.pp.topLeftCorner(dims, dims), state.pv.topLeftCorner(dims, dims),
+          state.pv.topLeftCorner(dims, dims).transpose(), state.vv.topLeftCorner(dims, dims);
+      EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(all).eigenvalues().minCoeff(), 0);
+    }
+}
+
 }  // namespace
 }  // namespace anchord
