@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/conversion.h"
 #include "geometry/gaussian_mass.h"
@@ -51,7 +52,7 @@ Result<std::vector<double>> distribution(const SymbolReport& report, const Attri
 }
 
 /// m(s) / pi(s), or with a confusion matrix what the report is worth under each true symbol. That
-/// of clutter is 1; so is that of a phantom, which is reported as clutter is.
+/// of what looks like anything is 1.
 std::vector<double> likelihood_ratio(const std::vector<double>& m, const Sensor& sensor,
                                      int attribute, const std::vector<char>& may) {
   const std::size_t n = m.size();
@@ -100,6 +101,10 @@ Status read_attributes(const Detection& from, const std::string& at, const Knowl
     if (a == knowledge.class_attribute) {
       to.has_class = true;
       to.class_ratio = std::move(ratio);
+      for (std::size_t c = 0; c < knowledge.classes.size(); ++c)
+        if (const int look = knowledge.classes[c].looks_like; look >= 0)
+          to.class_ratio[c] = to.class_ratio[look];
+      to.label = static_cast<int>(std::max_element(m->begin(), m->end()) - m->begin());
     } else {
       to.attributes.push_back({a, std::move(ratio), 0, 0});
     }
@@ -131,6 +136,28 @@ Result<Gaussian> read_position(const Detection& from, const std::optional<Pose>&
   return to_map(filled, pose, dims);
 }
 
+/// l(z | clutter): that of what it looks like.
+double clutter_ratio(const MapDetection& z, const Sensor& sensor) {
+  if (sensor.clutter_looks.empty()) return 1;
+  return std::inner_product(z.class_ratio.begin(), z.class_ratio.end(),
+                            sensor.clutter_looks.begin(), 0.0);
+}
+
+/// What a score says: against clutter, and of phantoms.
+void take_score(double score, const Background& background, const Sensor& sensor,
+                MapDetection& z) {
+  const double p = std::clamp(score, kLeastScore, 1 - kLeastScore);
+  const auto [a, b, per_m] = sensor.score_calibration.at(z.label);
+  const double logit = a + b * (std::log(p) - std::log1p(-p)) + per_m * z.range;
+  z.log_odds = logit;
+  z.log_clutter -= logit;
+  if (!background.has_phantoms) return;
+  const double share = sensor.real_share.at(z.label);
+  z.score = {logit - std::log(share / (1 - share)), sensor.score_memory.at(z.label)};
+  for (int c = 0; c < background.classes(); ++c)
+    if (background.object_class(c).phantom) z.class_ratio[c] *= std::exp(-z.score->log_ratio);
+}
+
 Result<MapDetection> place_detection(const Detection& from, const Frame& frame,
                                      const std::string& at, const Background& background,
                                      const Sensor& sensor) {
@@ -138,22 +165,18 @@ Result<MapDetection> place_detection(const Detection& from, const Frame& frame,
   auto position = read_position(from, frame.pose, sensor, background.dims);
   if (!position) return invalid(at + "." + position.error().field, position.error().message);
   to.position = *position;
+  if (frame.pose) {
+    const auto& [x, y, z] = frame.pose->position;
+    to.range = (to.position.mean - Eigen::Vector3d(x, y, background.dims == 3 ? z : 0)).norm();
+  }
   to.class_ratio.assign(background.classes(), 1.0);
   if (auto read = read_attributes(from, at, background.knowledge, sensor, to); !read)
     return read.error();
-  to.log_clutter = std::log(sensor.clutter_density);
+  to.log_clutter = std::log(sensor.clutter_density * clutter_ratio(to, sensor));
   if (from.score) {
     if (!(*from.score >= 0 && *from.score <= 1))
       return invalid(at + ".score", "must be a probability, 0 to 1");
-    const double p = std::clamp(*from.score, kLeastScore, 1 - kLeastScore);
-    const auto [a, b] = sensor.score_calibration;
-    const double logit = a + b * (std::log(p) - std::log1p(-p));
-    to.log_clutter -= logit;
-    if (background.has_phantoms)
-      to.score = {logit - std::log(sensor.real_share / (1 - sensor.real_share)),
-                  sensor.score_memory};
-    for (int c = 0; c < background.classes(); ++c)
-      if (background.object_class(c).phantom) to.class_ratio[c] *= std::exp(-to.score->log_ratio);
+    take_score(*from.score, background, sensor, to);
   }
   if (from.yaw) {
     if (!std::isfinite(*from.yaw)) return invalid(at + ".yaw", "must be finite");

@@ -178,8 +178,11 @@ double repeat_density(const MapFrame& frame, int z, int dims) {
   const double often = frame.sensor->double_detection;
   if (often <= 0) return 0;
   const Gaussian& place = frame.detections[z].position;
+  const double sure = frame.detections[z].log_odds.value_or(0);
   double sum = 0;
-  for (int first = 0; first < z; ++first) {
+  for (int first = 0; first < static_cast<int>(frame.detections.size()); ++first) {
+    const double surer = frame.detections[first].log_odds.value_or(0);
+    if (surer < sure || (surer == sure && first >= z)) continue;
     Kinematic at;
     at.position = frame.detections[first].position.mean;
     at.pp = frame.detections[first].position.covariance;

@@ -37,8 +37,9 @@ void hide(const Leaf& leaf, const MapFrame& frame, const Background& background,
 int draw_to_hosts(Leaf& leaf, const MapFrame& frame, const LeafVisibility& shown,
                   const Sight& sight, const Background& background);
 
-/// Detections of one object reported once more: the density (per m^d) of a repeat of an earlier
-/// detection of the frame at the z-th. It comes to what clutter is there.
+/// Detections of one object reported once more: the density (per m^d) of a repeat, at the z-th
+/// detection, of those of the frame that have a higher score, or the same and are earlier. It comes
+/// to what clutter is there.
 double repeat_density(const MapFrame& frame, int z, int dims);
 
 }  // namespace anchord

@@ -136,7 +136,7 @@ bool fit(const std::vector<Transition>& transitions, const std::vector<Behaviour
 ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge& knowledge) {
   if (!value.object_of({"models", "transitions", "changes", "detection_probability", "arrival_rate",
                         "arrivals", "departure_rate", "undetected_intensity", "extent",
-                        "phantom"})) {
+                        "phantom", "looks_like"})) {
     return base;
   }
   value.read("phantom", base.phantom);
@@ -171,6 +171,22 @@ ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge
   return base;
 }
 
+/// What a phantom looks like: one of the classes, all of which are read.
+void read_look(const JsonValue& value, std::vector<ObjectClass>& classes, std::size_t c) {
+  const auto look = value.find("looks_like");
+  if (!look) return;
+  std::vector<std::string> known;
+  for (const ObjectClass& other : classes) known.push_back(other.name);
+  const auto index = look->one_of(known, "class");
+  if (!index) return;
+  if (!classes[c].phantom)
+    look->mistake("is for a phantom");
+  else if (classes[static_cast<std::size_t>(*index)].phantom)
+    look->mistake("is a phantom: nothing is reported as one");
+  else
+    classes[c].looks_like = static_cast<int>(*index);
+}
+
 }  // namespace
 
 void read_classes(const JsonValue& root, Knowledge& knowledge) {
@@ -197,6 +213,10 @@ void read_classes(const JsonValue& root, Knowledge& knowledge) {
                              [](const ObjectClass& c) { return c.phantom; }))
     section->mistake("must have a class that is no phantom");
   if (!section) return;
+  if (const auto entry = section->find("default"); entry && entry->find("looks_like"))
+    entry->find("looks_like")->mistake("is for a class by name");
+  for (std::size_t c = 0; c < symbols.size(); ++c)
+    if (const auto entry = section->find(symbols[c])) read_look(*entry, knowledge.classes, c);
   std::vector<std::string> known = symbols;
   known.push_back("default");
   const std::set<std::string> lookup(known.begin(), known.end());

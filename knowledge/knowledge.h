@@ -81,6 +81,7 @@ struct AttributeChange {
 struct ObjectClass {
   std::string name;
   bool phantom = false;  ///< what sensors report though it is no object: in no answer
+  int looks_like = -1;   ///< of a phantom: it is reported as this class is; -1: as anything
   std::vector<BehaviourModel> models;
   std::vector<Transition> transitions;
   std::vector<AttributeChange> changes;  ///< at most one for each attribute but `class`
@@ -124,9 +125,26 @@ struct ScoreMemory {
   double seconds = 1;  ///< for how long: its correlation falls as exp(-t / seconds)
 };
 
+/// What counts of a score p at a distance of r m: logit p' = a + b logit p + per_m r, b > 0.
+struct ScoreCalibration {
+  double a = 0, b = 1, per_m = 0;
+};
+
+/// A setting that may differ by the class that a detection is reported as, most probably.
+template <typename T>
+struct ByLabel {
+  T rest{};
+  std::vector<T> of;  ///< per class; empty: `rest` for all
+
+  const T& at(int label) const {
+    return of.empty() || label < 0 ? rest : of[static_cast<std::size_t>(label)];
+  }
+};
+
 struct Sensor {
   std::string name;
   double clutter_density = 1e-3;              ///< kappa, per frame and m^d
+  std::vector<double> clutter_looks;          ///< shares of it that look like each class; or empty
   std::vector<double> detection_probability;  ///< per class
   std::optional<View> view;                   ///< sensor frame
   std::vector<double> noise;        ///< row-major covariance, d*d numbers; empty: none configured
@@ -137,11 +155,10 @@ struct Sensor {
   /// Per attribute: C[true][reported], rows sum to 1; empty where there is none. It goes before
   /// the prior.
   std::vector<std::vector<std::vector<double>>> confusion;
-  /// Of the scores: logit p' = [0] + [1] logit p is what counts, [1] > 0.
-  std::array<double, 2> score_calibration{0, 1};
+  ByLabel<ScoreCalibration> score_calibration;
   /// Of its detections, those of objects, 0 to 1: what a score is held against to tell phantoms.
-  double real_share = 0.5;
-  ScoreMemory score_memory;
+  ByLabel<double> real_share{0.5, {}};
+  ByLabel<ScoreMemory> score_memory;
   double pose_floor = 0;  ///< m^2
   double identity_doubt = 0.01;
   double double_detection = 0;  ///< how often it reports what it reports once more in one frame

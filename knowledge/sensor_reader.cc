@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/view.h"
 #include "knowledge/attribute_members.h"
@@ -25,26 +26,82 @@ std::vector<std::string> names(const std::vector<ObjectClass>& classes) {
   return all;
 }
 
-void read_detection_probability(const JsonValue& value, const Knowledge& knowledge, Draft& draft) {
-  auto& all = draft.detection_probability;
-  if (!value.json().is_object()) {
-    if (!value.json().is_number()) {
-      value.mistake("must be a number, or an object with a number for each class");
-    } else if (const auto p = value.number(kBelowCertain)) {
-      all.assign(all.size(), *p);
-    }
-    return;
-  }
-  if (const auto rest = value.find("default")) {
-    if (const auto p = rest->number(kBelowCertain)) all.assign(all.size(), *p);
-  }
+/// Calls read(class, entry) for what an object says of classes by name; what it names "default", or
+/// what is no object, goes to rest(entry) before.
+template <typename Rest, typename Read>
+void read_by_class(const JsonValue& value, const Knowledge& knowledge, Rest rest, Read read) {
+  if (!value.json().is_object()) return rest(value);
+  if (const auto entry = value.find("default")) rest(*entry);
   const std::vector<std::string> known = names(knowledge.classes);
   for (const auto& [name, entry] : value.members()) {
     if (name == "default") continue;
-    if (const auto index = entry.index_of(name, known, "class")) {
-      if (const auto p = entry.number(kBelowCertain)) all[static_cast<std::size_t>(*index)] = p;
-    }
+    if (const auto index = entry.index_of(name, known, "class"))
+      read(static_cast<std::size_t>(*index), entry);
   }
+}
+
+/// A number, or an object of numbers.
+bool number_by_class(const JsonValue& value) {
+  const bool is = value.json().is_number() || value.json().is_object();
+  if (!is) value.mistake("must be a number, or an object with a number for each class");
+  return is;
+}
+
+void read_detection_probability(const JsonValue& value, const Knowledge& knowledge, Draft& draft) {
+  auto& all = draft.detection_probability;
+  if (!number_by_class(value)) return;
+  read_by_class(
+      value, knowledge,
+      [&](const JsonValue& rest) {
+        if (const auto p = rest.number(kBelowCertain)) all.assign(all.size(), *p);
+      },
+      [&](std::size_t c, const JsonValue& entry) {
+        if (const auto p = entry.number(kBelowCertain)) all[c] = p;
+      });
+}
+
+/// Whether something may be reported as this class.
+bool is_label(std::size_t c, const JsonValue& entry, const Knowledge& knowledge) {
+  if (knowledge.classes[c].phantom) entry.mistake("is a phantom: nothing is reported as one");
+  return !knowledge.classes[c].phantom;
+}
+
+/// By what clutter looks like: of classes that are not named there is none.
+void read_clutter_density(const JsonValue& value, const Knowledge& knowledge, Sensor& sensor) {
+  if (!number_by_class(value)) return;
+  sensor.clutter_looks.clear();
+  if (!value.json().is_object()) {
+    sensor.clutter_density = value.number(kPositive).value_or(sensor.clutter_density);
+    return;
+  }
+  std::vector<double> densities(knowledge.classes.size(), 0);
+  read_by_class(
+      value, knowledge, [](const JsonValue& rest) { rest.mistake("is no class"); },
+      [&](std::size_t c, const JsonValue& entry) {
+        if (is_label(c, entry, knowledge)) densities[c] = entry.number(kPositive).value_or(0);
+      });
+  const double sum = std::accumulate(densities.begin(), densities.end(), 0.0);
+  if (value.members().empty()) value.mistake("must name a class that clutter looks like");
+  if (!(sum > 0)) return;
+  sensor.clutter_density = sum;
+  sensor.clutter_looks = std::move(densities);
+  for (double& share : sensor.clutter_looks) share /= sum;
+}
+
+/// A setting by label: what parse(entry) makes of one entry, where it can.
+template <typename T, typename Parse>
+void read_by_label(const JsonValue& value, const Knowledge& knowledge, ByLabel<T>& to,
+                   Parse parse) {
+  read_by_class(
+      value, knowledge,
+      [&](const JsonValue& rest) {
+        if (const auto all = parse(rest)) to = {*all, {}};
+      },
+      [&](std::size_t c, const JsonValue& entry) {
+        if (to.of.empty()) to.of.assign(knowledge.classes.size(), to.rest);
+        if (!is_label(c, entry, knowledge)) return;
+        if (const auto one = parse(entry)) to.of[c] = *one;
+      });
 }
 
 void read_noise(const JsonValue& value, int dims, Sensor& sensor) {
@@ -107,19 +164,34 @@ void read_confusion(const JsonValue& value, const Knowledge& knowledge, Sensor& 
                        });
 }
 
-void read_score_calibration(const JsonValue& value, Sensor& sensor) {
-  const auto numbers = value.numbers(2);
-  if (!numbers) return;
+std::optional<ScoreCalibration> read_score_calibration(const JsonValue& value) {
+  const auto numbers = value.numbers(value.json().size() == 3 ? 3 : 2);
+  if (!numbers) return std::nullopt;
   if ((*numbers)[1] > 0)
-    sensor.score_calibration = {(*numbers)[0], (*numbers)[1]};
-  else
-    value.mistake("must be [a, b] with b above 0: logit p' = a + b logit p");
+    return ScoreCalibration{(*numbers)[0], (*numbers)[1], numbers->size() == 3 ? (*numbers)[2] : 0};
+  value.mistake("must be [a, b] or [a, b, c] with b above 0: logit p' = a + b logit p + c range");
+  return std::nullopt;
 }
 
-void read_score_memory(const JsonValue& value, Sensor& sensor) {
-  if (!value.object_of({"share", "seconds"})) return;
-  value.read("share", sensor.score_memory.share, kBelowCertain);
-  value.read("seconds", sensor.score_memory.seconds, kPositive);
+std::optional<ScoreMemory> read_one_score_memory(const JsonValue& value) {
+  if (!value.object_of({"share", "seconds"})) return std::nullopt;
+  ScoreMemory memory;
+  value.read("share", memory.share, kBelowCertain);
+  value.read("seconds", memory.seconds, kPositive);
+  return memory;
+}
+
+/// One, or one for each class: that has an object for each name.
+void read_score_memory(const JsonValue& value, const Knowledge& knowledge, Sensor& sensor) {
+  const auto members = value.members();
+  const bool by_label =
+      !members.empty() && std::all_of(members.begin(), members.end(), [](const auto& member) {
+        return member.second.json().is_object();
+      });
+  if (by_label)
+    read_by_label(value, knowledge, sensor.score_memory, read_one_score_memory);
+  else if (const auto one = read_one_score_memory(value))
+    sensor.score_memory = {*one, {}};
 }
 
 /// A sensor: what `value` says, and else as `draft` is.
@@ -130,12 +202,17 @@ Draft read_sensor(const JsonValue& value, Draft draft, const Knowledge& knowledg
     return draft;
   }
   Sensor& sensor = draft.sensor;
-  value.read("clutter_density", sensor.clutter_density, kPositive);
+  if (const auto density = value.find("clutter_density")) {
+    read_clutter_density(*density, knowledge, sensor);
+  }
   value.read("pose_floor", sensor.pose_floor, kNotNegative);
-  value.read("real_share", sensor.real_share, kShare);
-  if (const auto memory = value.find("score_memory")) read_score_memory(*memory, sensor);
+  if (const auto share = value.find("real_share"); share && number_by_class(*share)) {
+    read_by_label(*share, knowledge, sensor.real_share,
+                  [](const JsonValue& entry) { return entry.number(kShare); });
+  }
+  if (const auto memory = value.find("score_memory")) read_score_memory(*memory, knowledge, sensor);
   if (const auto calibration = value.find("score_calibration")) {
-    read_score_calibration(*calibration, sensor);
+    read_by_label(*calibration, knowledge, sensor.score_calibration, read_score_calibration);
   }
   value.read("identity_doubt", sensor.identity_doubt, kAboveImpossible);
   value.read("double_detection", sensor.double_detection, kProbability);

@@ -106,6 +106,32 @@ TEST(FromTruth, PhantomsAreFoundAmongFalseDetections) {
   EXPECT_EQ(found, 5);
 }
 
+/// One thing in five is reported twice.
+TEST(FromTruth, RepeatsAreCounted) {
+  const Street street;
+  std::mt19937_64 random(11);
+  enumeration::Dice dice(random);
+  int inside = 0;
+  for (int run = 0; run < 10; ++run) {
+    Recording recording = simulate(street, 50 + run);
+    for (Frame& frame : recording.frames) {
+      const std::vector<Detection> once = frame.detections;
+      for (const Detection& z : once) {
+        if (!dice.chance(0.2)) continue;
+        Detection& again = frame.detections.emplace_back(z);
+        for (double& x : std::get<CartesianMeasurement>(again.measurement).position)
+          x += std::sqrt(2 * street.variance) * dice.normal();
+      }
+    }
+    const auto findings = findings_from_truth({recording}, wrong_numbers(street), {kRadius, 0});
+    ASSERT_TRUE(findings.ok());
+    for (const Finding& f : *findings)
+      if (dotted(f.path) == "sensors.camera.double_detection")  // of all, a sixth are repeats
+        inside += f.estimate->low < 1.0 / 6 && 1.0 / 6 < f.estimate->high;
+  }
+  EXPECT_GE(inside, 7);  // of 10, each in 19 of 20: fewer in one of a thousand
+}
+
 TEST(FromTruth, WritesAConfigurationThatIsRead) {
   Street street;
   street.hide = 0.2;

@@ -46,6 +46,25 @@ TEST(Scores, WhatIsOffIsFound) {
   EXPECT_GE(inside, 33);  // of 40; 38 expected, fewer in one run of five hundred
 }
 
+TEST(Scores, WhatDistanceSaysIsFound) {
+  std::mt19937_64 random(7);
+  Dice dice(random);
+  int inside = 0;
+  for (int run = 0; run < 20; ++run) {
+    std::vector<JudgedScore> scores;
+    for (int i = 0; i < 1000; ++i) {
+      const double logit = 2 * dice.normal(), range = dice.uniform(0, 60);
+      scores.push_back(
+          {logistic(logit), dice.chance(logistic(-2 + 1.2 * logit + 0.08 * range)), range});
+    }
+    const auto calibration = calibrate(scores);
+    ASSERT_TRUE(calibration && calibration->per_m);
+    EXPECT_TRUE(calibration->off);
+    inside += calibration->per_m->low < 0.08 && 0.08 < calibration->per_m->high;
+  }
+  EXPECT_GE(inside, 16);  // of 20, each in 19 of 20: fewer in one of four hundred
+}
+
 TEST(Scores, NothingIsToldFromOneKind) {
   EXPECT_FALSE(calibrate({}));
   EXPECT_FALSE(calibrate({{0.4, true}, {0.6, true}}));

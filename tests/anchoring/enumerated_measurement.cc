@@ -41,13 +41,16 @@ Eigen::VectorXd symbol_ratio(const SymbolReport& report, const Attribute& attrib
 
 namespace {
 
-/// Of the class: among those that are no phantoms; theirs is clutter's own.
-Eigen::VectorXd reported_class(const SymbolReport& report, const Knowledge& knowledge,
-                               Sensor sensor) {
+/// The attribute `class` without phantoms, as which nothing is reported, and the classes that its
+/// symbols are; the sensor's settings likewise.
+Attribute reportable(const Knowledge& knowledge, Sensor& sensor, std::vector<int>& classes) {
   const auto a = static_cast<std::size_t>(knowledge.class_attribute);
   Attribute real = knowledge.attributes[a];
   for (std::size_t c = knowledge.classes.size(); c-- > 0;) {
-    if (!knowledge.classes[c].phantom) continue;
+    if (!knowledge.classes[c].phantom) {
+      classes.insert(classes.begin(), static_cast<int>(c));
+      continue;
+    }
     const auto at = static_cast<std::ptrdiff_t>(c);
     real.symbols.erase(real.symbols.begin() + at);
     if (a < sensor.prior.size() && !sensor.prior[a].empty()) {
@@ -61,12 +64,31 @@ Eigen::VectorXd reported_class(const SymbolReport& report, const Knowledge& know
     rows.erase(rows.begin() + at);
     for (auto& row : rows) row.erase(row.begin() + at);
   }
-  const Eigen::VectorXd ratio = symbol_ratio(report, real, sensor, a);
+  return real;
+}
+
+/// Of the class: among those that are no phantoms; theirs is that of what they look like, or
+/// that of anything.
+Eigen::VectorXd reported_class(const SymbolReport& report, const Knowledge& knowledge,
+                               Sensor sensor) {
+  std::vector<int> classes;
+  const Attribute real = reportable(knowledge, sensor, classes);
+  const Eigen::VectorXd ratio = symbol_ratio(report, real, sensor, knowledge.class_attribute);
   Eigen::VectorXd all = Eigen::VectorXd::Ones(static_cast<int>(knowledge.classes.size()));
-  int next = 0;
+  for (std::size_t i = 0; i < classes.size(); ++i) all(classes[i]) = ratio(i);
   for (int c = 0; c < all.size(); ++c)
-    if (!knowledge.classes[c].phantom) all(c) = ratio(next++);
+    if (knowledge.classes[c].looks_like >= 0) all(c) = all(knowledge.classes[c].looks_like);
   return all;
+}
+
+/// The class that is reported as the most probable one.
+int label(const SymbolReport& report, const Knowledge& knowledge) {
+  Sensor plain;
+  std::vector<int> classes;
+  const Attribute real = reportable(knowledge, plain, classes);
+  Eigen::Index top = 0;
+  symbol_ratio(report, real, plain, knowledge.class_attribute).maxCoeff(&top);
+  return classes[top];
 }
 
 }  // namespace
@@ -82,24 +104,38 @@ Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Dete
                 .symbol_ratio = {},
                 .scalar = {},
                 .clutter = sensor.clutter_density,
+                .log_odds = 0,
                 .score = {}};
+  int reported = -1;
   for (const AttributeReport& report : detection.attributes) {
     std::size_t a = 0;
     while (knowledge.attributes.at(a).name != report.name) ++a;
     if (const auto* symbols = std::get_if<SymbolReport>(&report.value)) {
-      if (static_cast<int>(a) == knowledge.class_attribute)
+      if (static_cast<int>(a) == knowledge.class_attribute) {
         z.class_ratio = reported_class(*symbols, knowledge, sensor);
-      else
+        reported = label(*symbols, knowledge);
+      } else {
         z.symbol_ratio[static_cast<int>(a)] =
             symbol_ratio(*symbols, knowledge.attributes[a], sensor, a);
+      }
     } else {
       z.scalar[static_cast<int>(a)] = std::get<ScalarReport>(report.value);
     }
   }
+  if (!sensor.clutter_looks.empty()) {
+    double ratio = 0;
+    for (int c = 0; c < z.class_ratio.size(); ++c)
+      ratio += sensor.clutter_looks[c] * z.class_ratio(c);
+    z.clutter *= ratio;
+  }
   if (detection.score) {
-    const double p = std::clamp(*detection.score, 1e-6, 1 - 1e-6);
-    z.clutter *= (1 - p) / p;
-    z.score = std::log(p / (1 - p) * (1 - sensor.real_share) / sensor.real_share);
+    const double score = std::clamp(*detection.score, 1e-6, 1 - 1e-6);
+    const ScoreCalibration& as = sensor.score_calibration.at(reported);  // scenes have no pose
+    const double odds = std::exp(as.a) * std::pow(score / (1 - score), as.b);
+    const double real_share = sensor.real_share.at(reported);
+    z.clutter /= odds;
+    z.log_odds = std::log(odds);
+    z.score = std::log(odds * (1 - real_share) / real_share);
   }
   return z;
 }

@@ -239,9 +239,9 @@ double Laws::detect(Object& object, const Sensor& sensor, const Measurement& z) 
   Eigen::VectorXd classes = object.classes.cwiseProduct(detection_probabilities(knowledge_, sensor))
                                 .cwiseProduct(z.class_ratio);
   if (z.score) {
-    const double before = joint_log_ratio(object.scores, sensor.score_memory);
+    const double before = joint_log_ratio(object.scores, sensor.score_memory.rest);
     object.scores.emplace_back(object.age, *z.score);
-    const double news = joint_log_ratio(object.scores, sensor.score_memory) - before;
+    const double news = joint_log_ratio(object.scores, sensor.score_memory.rest) - before;
     for (int c = 0; c < classes.size(); ++c)
       if (knowledge_.classes[c].phantom) classes(c) *= std::exp(-news);
   }

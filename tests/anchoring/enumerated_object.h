@@ -18,7 +18,8 @@ struct Measurement {
   std::map<int, Eigen::VectorXd> symbol_ratio;  ///< by attribute other than class: m(s) / pi(s)
   std::map<int, ScalarReport> scalar;           ///< by attribute
   double clutter = 0;                           ///< kappa(z)
-  std::optional<double> score;                  ///< ln f1/f0 of its score, where it has one
+  double log_odds = 0;                          ///< of its score, where it has one
+  std::optional<double> score;                  ///< ln f1/f0 of the same
 };
 
 /// Floors, completes and weighs one report of symbols: m(s) / pi(s), or with the sensor's

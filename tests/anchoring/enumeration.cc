@@ -89,13 +89,17 @@ struct Step {
   std::vector<std::optional<ObjectKey>> named;  ///< per detection
 };
 
-/// The last detection may be one of the others, reported once more.
+/// A detection may be a surer one, or an earlier one as sure, reported once more.
 void repeat(const Sensor& sensor, std::vector<Measurement>& detections) {
-  Measurement& last = detections.back();
-  for (std::size_t i = 0; i + 1 < detections.size(); ++i)
-    last.clutter +=
-        sensor.double_detection * normal_density(last.position, detections[i].position,
-                                                 detections[i].covariance + last.covariance);
+  for (std::size_t z = 0; z < detections.size(); ++z)
+    for (std::size_t first = 0; first < detections.size(); ++first) {
+      const double more = detections[first].log_odds - detections[z].log_odds;
+      if (more > 0 || (more == 0 && first < z))
+        detections[z].clutter +=
+            sensor.double_detection *
+            normal_density(detections[z].position, detections[first].position,
+                           detections[first].covariance + detections[z].covariance);
+    }
 }
 
 struct World {
@@ -124,10 +128,10 @@ class Enumeration {
       undetected.predict(step.dt);
       for (const Detection& detection : frames[t].detections) {
         step.detections.push_back(measure(knowledge, *step.sensor, detection));
-        repeat(*step.sensor, step.detections);
         step.terms.push_back(undetected.terms(*step.sensor, step.detections.back()));
         step.named.push_back(parse_reference(detection.object));
       }
+      repeat(*step.sensor, step.detections);
       belief_.expected_detections +=
           undetected.look(*step.sensor, step.sight) +
           step.sensor->double_detection * static_cast<double>(step.detections.size());

@@ -52,6 +52,49 @@ TEST(Phantom, IsBelievedInByNobodyWhoAsks) {
   EXPECT_NEAR(count[2], 0.1 * 0.9, 1e-9);
 }
 
+/// Reported as a cup for certain, in a world of cups, boxes and ghosts, each as likely.
+double p_of_a_cup(const char* look, double score) {
+  auto more = nlohmann::json::parse(kExact);
+  more["attributes"]["class"]["symbols"] = {"cup", "box", "ghost"};
+  more["classes"]["ghost"]["phantom"] = true;
+  if (*look) more["classes"]["ghost"]["looks_like"] = look;
+  more["sensors"]["default"]["clutter_density"] = 1e-12;
+  more["sensors"]["default"]["real_share"] = {{"cup", 0.2}, {"default", 0.5}};
+  World world(small_world(more.dump()));
+  Detection z = scored(1, score);
+  z.attributes.push_back({"class", SymbolReport{{{"cup", 1.0}}}});
+  apply(world, {frame(0, {z})});
+  return objects(world)[0].p;
+}
+
+/// A cup's report is twice as likely of a cup as of anything, and of a box 1e-6 of that.
+TEST(Phantom, IsReportedAsWhatItLooksLike) {
+  constexpr double kFloor = 1e-5;
+  EXPECT_NEAR(p_of_a_cup("", 0.2), 2.0 / 3, kFloor);
+  EXPECT_NEAR(p_of_a_cup("cup", 0.2), 0.5, kFloor);
+  EXPECT_NEAR(p_of_a_cup("box", 0.2), 1, kFloor);
+}
+
+/// Odds of 4 to 1 by the score, of a label of which one in five is right.
+TEST(Phantom, ScoresAreOddsAgainstThoseOfTheLabel) {
+  EXPECT_NEAR(p_of_a_cup("cup", 0.8), 16.0 / 17, 1e-5);
+}
+
+TEST(Phantom, ClutterIsReportedAsWhatItLooksLike) {
+  auto more = nlohmann::json::parse(kExact);
+  for (const char* look : {"cup", "box"}) {
+    more["sensors"]["default"]["clutter_density"] = {{look, 0.01}};
+    World world(small_world(more.dump()));
+    Detection z = at(1, 1);
+    z.attributes.push_back({"class", SymbolReport{{{"cup", 1.0}}}});
+    apply(world, {frame(0, {z})});
+    const auto& found = objects(world)[0];
+    const double expected = found.anchor->birth >= 0 ? found.p : 0;
+    if (*look == 'b') EXPECT_GT(expected, 1 - 1e-4);
+    if (*look == 'c') EXPECT_LT(expected, 0.99);
+  }
+}
+
 TEST(Phantom, IsNotAmongWhatNobodyHasSeen) {
   World world(haunted());
   apply(world, {blink(0)});

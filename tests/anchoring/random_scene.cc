@@ -8,6 +8,7 @@
 
 #include "tests/anchoring/dice.h"
 #include "tests/anchoring/enumeration.h"
+#include "tests/anchoring/random_looks.h"
 
 namespace anchord::enumeration {
 namespace {
@@ -23,6 +24,7 @@ class Maker {
     make_attributes();
     make_classes();
     make_sensors();
+    if (variety_.looks) add_looks(known(), dice_);
     make_sites();
     make_frames();
   }
@@ -204,8 +206,8 @@ class Maker {
       memory = {dice_.uniform(0.2, 0.95), dice_.scale(0.1, 10)};
     for (const char* name : {"default", "left", "right"}) {
       Sensor sensor;
-      if (variety_.phantoms) sensor.real_share = dice_.uniform(0.2, 0.9);
-      sensor.score_memory = memory;
+      if (variety_.phantoms) sensor.real_share.rest = dice_.uniform(0.2, 0.9);
+      sensor.score_memory.rest = memory;
       sensor.name = name;
       sensor.clutter_density = dice_.scale(0.003, 1);
       for (const ObjectClass& c : k.classes)

@@ -31,6 +31,7 @@ struct Variety {
   bool late = false;            ///< with `sensors`: some frames arrive late
   bool verification = false;    ///< detections that name their object, as reference() does
   bool phantoms = false;        ///< with `classes`: one of them is a phantom
+  bool looks = false;           ///< with `classes`: what is false looks like one of them
   double max_worlds = 20'000;   ///< detections are left out until there are fewer
 };
 

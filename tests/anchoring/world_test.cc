@@ -53,12 +53,26 @@ TEST(World, TheScoreIsTheOddsOfClutter) {
 
 TEST(World, ScoresCountAsTheSensorsCalibrationHasThem) {
   Knowledge knowledge = exact();
-  knowledge.default_sensor.score_calibration = {-0.5, 0.8};
+  knowledge.default_sensor.score_calibration.rest = {-0.5, 0.8};
   World world(knowledge);
   Detection z = at(1, 1);
   z.score = 0.8;  // odds against: 1/4
   apply(world, {frame(0, {z})});
   const double odds = std::exp(0.5 - 0.8 * std::log(4));
+  EXPECT_NEAR(objects(world)[0].p, first_existence(kClutter * odds), kRounding);
+}
+
+TEST(World, ScoresCountByDistanceAndLabel) {
+  Knowledge knowledge = exact();
+  knowledge.default_sensor.score_calibration = {{0, 1, 0}, {{-0.5, 0.8, 0.1}, {0, 1, 0}}};
+  World world(knowledge);
+  Detection z = at(3, 4);  // 5 m away
+  z.score = 0.8;
+  z.attributes.push_back({"class", SymbolReport{{{"cup", 0.6}, {"box", 0.4}}}});
+  Frame looked = frame(0, {z});
+  looked.pose.emplace();
+  apply(world, {looked});
+  const double odds = std::exp(0.5 - 0.8 * std::log(4) - 0.1 * 5);
   EXPECT_NEAR(objects(world)[0].p, first_existence(kClutter * odds), kRounding);
 }
 

@@ -252,8 +252,9 @@ TEST(Configuration, SensorsTakeWhatIsMissingFromDefault) {
   EXPECT_EQ(a.polar_noise, (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(a.identity_doubt, 0.1);
   EXPECT_EQ(b.identity_doubt, 0.01);
-  EXPECT_EQ(a.score_calibration, (std::array<double, 2>{-0.5, 0.8}));
-  EXPECT_EQ(b.score_calibration, (std::array<double, 2>{0, 1}));
+  EXPECT_EQ(a.score_calibration.rest.a, -0.5);
+  EXPECT_EQ(a.score_calibration.rest.b, 0.8);
+  EXPECT_EQ(b.score_calibration.rest.b, 1);
   ASSERT_TRUE(a.view && b.view && c.view);
   EXPECT_EQ(a.view->type, View::Type::kSector);
   EXPECT_EQ(a.view->bearing, (std::array<double, 2>{-1, 1}));

@@ -31,9 +31,7 @@ double expected_amiss(const Recording& recording, const Background& background) 
     sum.volume += visibility->volume();
     for (std::size_t z = 0; z < frame.detections.size(); ++z) {
       sum.scored = sum.scored || frame.detections[z].score;
-      // kappa(z) / kappa is the odds against, recalibrated.
-      const double against =
-          std::exp(placed->detections[z].log_clutter) / placed->sensor->clutter_density;
+      const double against = std::exp(-placed->detections[z].log_odds.value_or(0));
       sum.right += 1 / (1 + against);
       sum.wrong += against / (1 + against);
     }
@@ -81,6 +79,28 @@ void add_class(const Knowledge& knowledge, std::size_t c, std::vector<Parameter>
   if (velocity) move("initial_velocity_variance", &BehaviourModel::initial_velocity_variance);
 }
 
+/// As it is; or by what it looks like.
+void add_clutter(const Knowledge& knowledge, const Sensor& sensor, const JsonPath& at,
+                 std::vector<Parameter>& out) {
+  const std::string name = sensor.name;
+  if (sensor.clutter_looks.empty())
+    out.push_back({at, Scale::kLog, sensor.clutter_density, [=](Knowledge& to, double value) {
+                     own_settings(to, name).clutter_density = value;
+                   }});
+  for (std::size_t c = 0; c < sensor.clutter_looks.size(); ++c) {
+    if (!(sensor.clutter_looks[c] > 0)) continue;
+    out.push_back({at / knowledge.classes[c].name, Scale::kLog,
+                   sensor.clutter_density * sensor.clutter_looks[c],
+                   [=](Knowledge& to, double value) {
+                     Sensor& s = own_settings(to, name);
+                     const double sum = s.clutter_density * (1 - s.clutter_looks[c]) + value;
+                     for (double& share : s.clutter_looks) share *= s.clutter_density / sum;
+                     s.clutter_looks[c] = value / sum;
+                     s.clutter_density = sum;
+                   }});
+  }
+}
+
 /// What must stand before single numbers of it can be told.
 Findings whole_parts(const Knowledge& knowledge) {
   Findings out;
@@ -104,9 +124,7 @@ std::vector<Parameter> parameters_of(Knowledge& knowledge,
   for (const std::string& name : sensors) {
     const Sensor& sensor = own_settings(knowledge, name);
     const JsonPath at = JsonPath("/sensors") / name;
-    out.push_back(
-        {at / "clutter_density", Scale::kLog, sensor.clutter_density,
-         [=](Knowledge& to, double value) { own_settings(to, name).clutter_density = value; }});
+    add_clutter(knowledge, sensor, at / "clutter_density", out);
     for (std::size_t c = 0; c < knowledge.classes.size(); ++c) {
       if (!(sensor.detection_probability[c] > 0)) continue;
       out.push_back({at / "detection_probability" / knowledge.classes[c].name, Scale::kLogit,

@@ -1,5 +1,7 @@
 #include "tools/anchor_tune/from_truth.h"
 
+#include <map>
+
 #include "tools/anchor_tune/knowledge_parts.h"
 
 namespace anchord::tuning {
@@ -13,6 +15,7 @@ Knowledge bare(Knowledge knowledge, double radius) {
       sensor.confusion[a].clear();
       sensor.prior[a].clear();
     }
+    sensor.score_calibration = {};
     if (!sensor.noise.empty()) return;
     const int d = knowledge.dims;
     sensor.noise.assign(static_cast<std::size_t>(d * d), 0);
@@ -44,26 +47,38 @@ bool fit_noise(const Judgement& judgement, int sensor, Knowledge& knowledge) {
   return true;
 }
 
-/// Of all classes that are phantoms; their chains are kept for the sensors.
+/// Of all classes that are phantoms, by what they look like; their chains are kept for the sensors.
+/// Those that look like anything are told from detections that no other looks like.
 Findings findings_of_phantoms(const Judgement& judgement, const Knowledge& knowledge, double radius,
-                              std::optional<Phantoms>& phantoms) {
-  std::vector<int> classes;
+                              std::vector<Phantoms>& phantoms) {
+  std::map<int, std::vector<int>> by_look;
   bool single = true;
   for (std::size_t c = 0; c < knowledge.classes.size(); ++c) {
     if (!knowledge.classes[c].phantom) continue;
-    classes.push_back(static_cast<int>(c));
+    by_look[knowledge.classes[c].looks_like].push_back(static_cast<int>(c));
     single = single && single_model(knowledge.classes[c]) >= 0;
   }
-  if (classes.empty()) return {};
-  if (single) phantoms = find_phantoms(judgement, classes, knowledge, radius);
-  if (!phantoms)
-    return {{JsonPath(), nullptr,
-             "Phantoms have several tracked models, or nothing false was seen twice; they are as "
-             "they were"}};
   Findings out;
-  for (std::size_t k = 0; k < classes.size(); ++k)
-    for (Finding& f : phantom_findings(judgement, classes[k], *phantoms, k, knowledge))
-      out.push_back(std::move(f));
+  for (const auto& [look, classes] : by_look) {
+    const auto wanted = [&by_look, look = look](const Judged& z) {
+      return look < 0 ? !by_look.count(label(z.placed)) || label(z.placed) < 0
+                      : label(z.placed) == look;
+    };
+    auto found =
+        single ? find_phantoms(judgement, wanted, look, classes, knowledge, radius) : std::nullopt;
+    if (!found) {
+      out.push_back(
+          {JsonPath(), nullptr,
+           "Phantoms" + (look < 0 ? "" : " that look like " + knowledge.classes[look].name) +
+               " have several tracked models, or nothing false was seen twice; they are as they "
+               "were"});
+      continue;
+    }
+    for (std::size_t k = 0; k < classes.size(); ++k)
+      for (Finding& f : phantom_findings(judgement, classes[k], *found, k, knowledge))
+        out.push_back(std::move(f));
+    phantoms.push_back(std::move(*found));
+  }
   return out;
 }
 
@@ -86,7 +101,7 @@ Result<Findings> findings_from_truth(const std::vector<Recording>& recordings,
     const auto found = class_findings(*judgement, static_cast<int>(c), judging, options);
     all.insert(all.end(), found.begin(), found.end());
   }
-  std::optional<Phantoms> phantoms;
+  std::vector<Phantoms> phantoms;
   const auto false_ones = findings_of_phantoms(*judgement, judging, options.radius, phantoms);
   all.insert(all.end(), false_ones.begin(), false_ones.end());
   for (std::size_t s = 0; s < judgement->sensors.size(); ++s) {

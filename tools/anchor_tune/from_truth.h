@@ -18,10 +18,10 @@ Result<Findings> findings_from_truth(const std::vector<Recording>& recordings,
                                      const Knowledge& knowledge, const TruthOptions& options);
 
 /// Of one sensor (index into judgement.sensors): clutter density, score calibration, confusion,
-/// noise; with phantoms also what their scores are held against. `knowledge` is what the frames
-/// were judged with.
+/// noise; with phantoms also what their scores are held against, by label where there are such that
+/// look like one. `knowledge` is what the frames were judged with.
 Findings sensor_findings(const Judgement& judgement, int sensor,
-                         const std::optional<Phantoms>& phantoms, const Knowledge& knowledge,
+                         const std::vector<Phantoms>& phantoms, const Knowledge& knowledge,
                          double radius);
 
 /// Of a class that is a phantom, the kind of this number: its models and rates.

@@ -114,8 +114,7 @@ class Judge {
   double cost(const MapDetection& z, const TruthRow& row) const {
     const double distance = (z.position.mean - row.position).head(background_.dims).norm();
     if (distance > radius_) return std::numeric_limits<double>::infinity();
-    const auto top = std::max_element(z.class_ratio.begin(), z.class_ratio.end());
-    const bool other = z.has_class && top - z.class_ratio.begin() != class_of(row);
+    const bool other = z.has_class && label(z) != class_of(row);
     return distance + (other ? radius_ / 2 : 0);
   }
 
@@ -186,6 +185,12 @@ class Judge {
 };
 
 }  // namespace
+
+int label(const MapDetection& z) {
+  if (!z.has_class) return -1;
+  const auto top = std::max_element(z.class_ratio.begin(), z.class_ratio.end());
+  return static_cast<int>(top - z.class_ratio.begin());
+}
 
 Result<Judgement> judge(const std::vector<Recording>& recordings, double radius,
                         const Background& background) {

@@ -28,6 +28,12 @@ struct Judged {
   Eigen::Vector3d sensor_residual = Eigen::Vector3d::Zero();  ///< the same along the sensor's axes
 };
 
+/// The class that it is reported as, most probably; -1 without a report of the class.
+int label(const Judged& z);
+
+/// The class that a detection is reported as, most probably; -1 without a report of the class.
+int label(const MapDetection& z);
+
 /// A true object, not neutral and in view, in one frame.
 struct Sight {
   std::string object;

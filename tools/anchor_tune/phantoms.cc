@@ -15,13 +15,18 @@ constexpr int kRounds = 2;  // of linking and fitting
 /// Links the false detections of one recording.
 class Linker {
  public:
-  Linker(const BehaviourModel& model, double gate_distance2, double radius, int dims)
-      : model_(model), gate_distance2_(gate_distance2), radius_(radius), dims_(dims) {}
+  Linker(const Wanted& wanted, const BehaviourModel& model, double gate_distance2, double radius,
+         int dims)
+      : wanted_(wanted),
+        model_(model),
+        gate_distance2_(gate_distance2),
+        radius_(radius),
+        dims_(dims) {}
 
   void take(const JudgedFrame& frame) {
     std::vector<const Judged*> wrong;
     for (const Judged& z : frame.detections)
-      if (z.verdict == Verdict::kFalse) wrong.push_back(&z);
+      if (z.verdict == Verdict::kFalse && wanted_(z)) wrong.push_back(&z);
     for (Open& open : open_) predict(open, frame.utime);
     std::vector<char> found(open_.size(), 0);
     const std::vector<int> chains = links(wrong);
@@ -111,9 +116,12 @@ class Linker {
   static void add(Open& open, const Judged& z, const JudgedFrame& frame) {
     open.chain.track.seconds.push_back(seconds_between(open.first, frame.utime));
     open.chain.track.positions.push_back(z.placed.position);
-    if (z.score) open.chain.log_odds.push_back(log_odds(*z.score));
+    if (!z.score) return;
+    open.chain.log_odds.push_back(log_odds(*z.score));
+    open.chain.ranges.push_back(z.placed.range);
   }
 
+  const Wanted& wanted_;
   const BehaviourModel& model_;
   double gate_distance2_, radius_;
   int dims_;
@@ -123,8 +131,9 @@ class Linker {
 
 }  // namespace
 
-std::vector<FalseChain> link_false(const Judgement& judgement, const BehaviourModel& model,
-                                   double gate_distance2, double radius, int dims) {
+std::vector<FalseChain> link_false(const Judgement& judgement, const Wanted& wanted,
+                                   const BehaviourModel& model, double gate_distance2,
+                                   double radius, int dims) {
   std::vector<FalseChain> out;
   std::optional<Linker> linker;
   int recording = -1;
@@ -135,7 +144,7 @@ std::vector<FalseChain> link_false(const Judgement& judgement, const BehaviourMo
   for (const JudgedFrame& frame : judgement.frames) {
     if (frame.recording != recording) {
       finish();
-      linker.emplace(model, gate_distance2, radius, dims);
+      linker.emplace(wanted, model, gate_distance2, radius, dims);
       recording = frame.recording;
     }
     linker->take(frame);
@@ -144,8 +153,9 @@ std::vector<FalseChain> link_false(const Judgement& judgement, const BehaviourMo
   return out;
 }
 
-std::optional<Phantoms> find_phantoms(const Judgement& judgement, const std::vector<int>& classes,
-                                      const Knowledge& knowledge, double radius) {
+std::optional<Phantoms> find_phantoms(const Judgement& judgement, const Wanted& wanted, int look,
+                                      const std::vector<int>& classes, const Knowledge& knowledge,
+                                      double radius) {
   const int dims = knowledge.dims;
   const double gate = knowledge.limits.gate_probability;
   const double gate_distance2 = Background(knowledge).gate_distance2;
@@ -155,8 +165,9 @@ std::optional<Phantoms> find_phantoms(const Judgement& judgement, const std::vec
   };
   BehaviourModel model = model_of(classes[0]);
   Phantoms out;
+  out.look = look;
   for (int round = 0; round < kRounds; ++round) {
-    out.chains = link_false(judgement, model, gate_distance2, radius, dims);
+    out.chains = link_false(judgement, wanted, model, gate_distance2, radius, dims);
     std::vector<MeasuredTrack> tracks;
     for (const FalseChain& chain : out.chains)
       if (chain.track.seconds.size() > 1) tracks.push_back(chain.track);
@@ -184,8 +195,10 @@ std::optional<Phantoms> find_phantoms(const Judgement& judgement, const std::vec
     if (chain.track.seconds.size() > 1)
       tracks[static_cast<std::size_t>(top)].push_back(chain.track);
   }
+  const auto alike = look < 0 ? std::vector<MeasuredTrack>{} : tracks_of(judgement, look);
   for (std::size_t k = 0; k < classes.size(); ++k)
-    out.kinds[k].motion = fit_motion(tracks[k], model_of(classes[k]), gate, radius, dims);
+    out.kinds[k].motion = fit_motion(alike.empty() ? tracks[k] : alike, model_of(classes[k]), gate,
+                                     radius, dims);
   return out;
 }
 

@@ -10,40 +10,63 @@ namespace {
 
 constexpr double kLeastScore = 1e-6;  // as the engine clamps them
 
+constexpr double kRangeUnit = 10;        // m: a first step of the search
+
+struct Sample {
+  double logit, range;
+  bool right;
+};
+
 /// ln P(right or false), b = exp(x[1]).
-double log_likelihood(const std::vector<std::pair<double, bool>>& logits,
-                      const std::vector<double>& x) {
-  const double b = std::exp(x[1]);
+double log_likelihood(const std::vector<Sample>& samples, const std::vector<double>& x) {
+  const double b = std::exp(x[1]), c = x.size() > 2 ? x[2] : 0;
   double total = 0;
-  for (const auto& [logit, right] : logits) {
-    const double t = right ? -(x[0] + b * logit) : x[0] + b * logit;
+  for (const Sample& s : samples) {
+    const double log_odds = x[0] + b * s.logit + c * s.range;
+    const double t = s.right ? -log_odds : log_odds;
     total -= t > 0 ? t + std::log1p(std::exp(-t)) : std::log1p(std::exp(t));
   }
   return total;
 }
 
+/// A number that is free as it is: the logarithm of what profile_interval() gives.
+Estimate free_interval(const LogLikelihood& f, const Optimum& best, std::size_t i, double unit) {
+  const Estimate e = profile_interval(f, best, i, Scale::kLog);
+  return {std::log(e.value) / unit, std::log(e.low) / unit, std::log(e.high) / unit};
+}
+
 }  // namespace
 
 std::optional<Calibration> calibrate(const std::vector<JudgedScore>& scores) {
-  std::vector<std::pair<double, bool>> logits;
+  std::vector<Sample> samples;
   std::size_t right = 0;
   for (const JudgedScore& s : scores) {
-    logits.emplace_back(to_free(std::clamp(s.p, kLeastScore, 1 - kLeastScore), Scale::kLogit),
-                        s.right);
+    samples.push_back({to_free(std::clamp(s.p, kLeastScore, 1 - kLeastScore), Scale::kLogit),
+                       s.range / kRangeUnit, s.right});
     right += s.right ? 1 : 0;
   }
-  const bool varied = std::any_of(logits.begin(), logits.end(),
-                                  [&](const auto& l) { return l.first != logits.front().first; });
-  if (!varied || right == 0 || right == scores.size()) return std::nullopt;
-  const auto f = [&](const std::vector<double>& x) { return log_likelihood(logits, x); };
-  const Optimum best = maximise(f, {0, 0}, 0.3, 400);
+  const auto varied = [&](double Sample::*of) {
+    return std::any_of(samples.begin(), samples.end(),
+                       [&](const Sample& s) { return s.*of != samples.front().*of; });
+  };
+  if (!varied(&Sample::logit) || right == 0 || right == scores.size()) return std::nullopt;
+  const auto f = [&](const std::vector<double>& x) { return log_likelihood(samples, x); };
+  const double criterion = std::log(static_cast<double>(scores.size())) / 2;  // per parameter
+  Optimum best = maximise(f, {0, 0}, 0.3, 400);
+  const double as_it_is = f({0, 0});
   Calibration result;
-  // `a` is free as it is: the logarithm of what profile_interval() gives.
-  const Estimate a = profile_interval(f, best, 0, Scale::kLog);
-  result.a = {std::log(a.value), std::log(a.low), std::log(a.high)};
+  result.off = best.value - as_it_is > 2 * criterion;
+  if (varied(&Sample::range)) {
+    const Optimum with_range = maximise(f, {best.at[0], best.at[1], 0}, 0.3, 600);
+    if (with_range.value - best.value > criterion) {
+      best = with_range;
+      result.per_m = free_interval(f, best, 2, kRangeUnit);
+      result.off = result.off || best.value - as_it_is > 3 * criterion;
+    }
+  }
+  result.a = free_interval(f, best, 0, 1);
   result.b = profile_interval(f, best, 1, Scale::kLog);
-  result.gain = best.value - f({0, 0});
-  result.off = result.gain > std::log(static_cast<double>(scores.size()));
+  result.gain = best.value - as_it_is;
   return result;
 }
 
