@@ -144,8 +144,7 @@ double clutter_ratio(const MapDetection& z, const Sensor& sensor) {
 }
 
 /// What a score says: against clutter, and of phantoms.
-void take_score(double score, const Background& background, const Sensor& sensor,
-                MapDetection& z) {
+void take_score(double score, const Background& background, const Sensor& sensor, MapDetection& z) {
   const double p = std::clamp(score, kLeastScore, 1 - kLeastScore);
   const auto [a, b, per_m] = sensor.score_calibration.at(z.label);
   const double logit = a + b * (std::log(p) - std::log1p(-p)) + per_m * z.range;

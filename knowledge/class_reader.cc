@@ -135,8 +135,8 @@ bool fit(const std::vector<Transition>& transitions, const std::vector<Behaviour
 /// A class: what `value` says, and else as `base` is.
 ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge& knowledge) {
   if (!value.object_of({"models", "transitions", "changes", "detection_probability", "arrival_rate",
-                        "arrivals", "departure_rate", "undetected_intensity", "extent",
-                        "phantom", "looks_like"})) {
+                        "arrivals", "departure_rate", "undetected_intensity", "extent", "phantom",
+                        "looks_like"})) {
     return base;
   }
   value.read("phantom", base.phantom);

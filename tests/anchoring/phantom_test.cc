@@ -69,7 +69,7 @@ double p_of_a_cup(const char* look, double score) {
 
 /// A cup's report is twice as likely of a cup as of anything, and of a box 1e-6 of that.
 TEST(Phantom, IsReportedAsWhatItLooksLike) {
-  constexpr double kFloor = 1e-5;
+  constexpr double kFloor = 1e-5;  // a report is certain to 1e-6
   EXPECT_NEAR(p_of_a_cup("", 0.2), 2.0 / 3, kFloor);
   EXPECT_NEAR(p_of_a_cup("cup", 0.2), 0.5, kFloor);
   EXPECT_NEAR(p_of_a_cup("box", 0.2), 1, kFloor);
@@ -80,19 +80,25 @@ TEST(Phantom, ScoresAreOddsAgainstThoseOfTheLabel) {
   EXPECT_NEAR(p_of_a_cup("cup", 0.8), 16.0 / 17, 1e-5);
 }
 
-TEST(Phantom, ClutterIsReportedAsWhatItLooksLike) {
+/// Odds of clutter to an object where a cup is reported for certain, of cups and boxes.
+double odds_of_clutter(std::vector<double> looks) {
   auto more = nlohmann::json::parse(kExact);
-  for (const char* look : {"cup", "box"}) {
-    more["sensors"]["default"]["clutter_density"] = {{look, 0.01}};
-    World world(small_world(more.dump()));
-    Detection z = at(1, 1);
-    z.attributes.push_back({"class", SymbolReport{{{"cup", 1.0}}}});
-    apply(world, {frame(0, {z})});
-    const auto& found = objects(world)[0];
-    const double expected = found.anchor->birth >= 0 ? found.p : 0;
-    if (*look == 'b') EXPECT_GT(expected, 1 - 1e-4);
-    if (*look == 'c') EXPECT_LT(expected, 0.99);
-  }
+  more["attributes"]["class"]["symbols"] = {"cup", "box"};
+  Knowledge knowledge = small_world(more.dump());
+  knowledge.default_sensor.clutter_looks = std::move(looks);
+  World world(std::move(knowledge));
+  apply(world, {frame(0, {at(1, 1, "class", "cup", 1)})});
+  const double p = objects(world)[0].p;
+  return (1 - p) / p;
+}
+
+/// Half of what looks like anything would be reported as a cup.
+TEST(Phantom, ClutterIsReportedAsWhatItLooksLike) {
+  constexpr double kFloor = 1e-5;  // a report is certain to 1e-6
+  const double anything = odds_of_clutter({});
+  EXPECT_NEAR(odds_of_clutter({1, 0}) / anything, 2, kFloor);
+  EXPECT_NEAR(odds_of_clutter({0, 1}) / anything, 0, kFloor);
+  EXPECT_NEAR(odds_of_clutter({0.5, 0.5}) / anything, 1, kFloor);
 }
 
 TEST(Phantom, IsNotAmongWhatNobodyHasSeen) {

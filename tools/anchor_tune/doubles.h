@@ -9,8 +9,8 @@ namespace anchord::tuning {
 
 /// What a sensor reports twice in a frame.
 struct Doubles {
-  Estimate often;          ///< Sensor::double_detection
-  double repeats = 0;      ///< detections that are expected to be repeats
+  Estimate often;      ///< Sensor::double_detection
+  double repeats = 0;  ///< detections that are expected to be repeats
   std::int64_t detections = 0;
 };
 

@@ -65,8 +65,8 @@ Findings phantom_findings(const Judgement& judgement, int object_class, const Ph
       at / "detection_probability", f.detection_probability,
       std::to_string(detections) + " false detections" +
           (phantoms.look < 0 ? "" : " labelled " + knowledge.classes[phantoms.look].name) +
-          ", linked to " +
-          std::to_string(phantoms.chains.size()) + " chains, " + std::to_string(again) +
+          ", linked to " + std::to_string(phantoms.chains.size()) + " chains, " +
+          std::to_string(again) +
           " of more than one: a hidden Markov model of found, missed and gone, this kind (" +
           f.share.text() + " of the chains) beside " +
           (phantoms.kinds.size() > 1 ? "the other and " : "") + "clutter"));

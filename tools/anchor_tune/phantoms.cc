@@ -197,8 +197,8 @@ std::optional<Phantoms> find_phantoms(const Judgement& judgement, const Wanted& 
   }
   const auto alike = look < 0 ? std::vector<MeasuredTrack>{} : tracks_of(judgement, look);
   for (std::size_t k = 0; k < classes.size(); ++k)
-    out.kinds[k].motion = fit_motion(alike.empty() ? tracks[k] : alike, model_of(classes[k]), gate,
-                                     radius, dims);
+    out.kinds[k].motion =
+        fit_motion(alike.empty() ? tracks[k] : alike, model_of(classes[k]), gate, radius, dims);
   return out;
 }
 

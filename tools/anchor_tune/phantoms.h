@@ -25,8 +25,8 @@ struct FalseChain {
 using Wanted = std::function<bool(const Judged&)>;
 
 /// Links the wanted false detections over frames: one to one, nearest first, within `model`'s gate
-/// (a squared Mahalanobis distance) and `radius` m. A chain ends when its place is not looked at, or
-/// was in vain kPatience times.
+/// (a squared Mahalanobis distance) and `radius` m. A chain ends when its place is not looked at,
+/// or was in vain kPatience times.
 std::vector<FalseChain> link_false(const Judgement& judgement, const Wanted& wanted,
                                    const BehaviourModel& model, double gate_distance2,
                                    double radius, int dims);

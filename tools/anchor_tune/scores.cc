@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLeastScore = 1e-6;  // as the engine clamps them
 
-constexpr double kRangeUnit = 10;        // m: a first step of the search
+constexpr double kRangeUnit = 10;  // m: a first step of the search
 
 struct Sample {
   double logit, range;

@@ -38,9 +38,9 @@ Tally tally(const Judgement& judgement, int sensor, int dims) {
     for (const Judged& z : frame.detections) {
       Counts& of_label = t.by_label[label(z.placed)];
       const bool right = z.verdict == Verdict::kRight;
-      const auto counter = right                            ? &Counts::right
+      const auto counter = right                          ? &Counts::right
                            : z.verdict == Verdict::kFalse ? &Counts::wrong
-                                                            : &Counts::neutral;
+                                                          : &Counts::neutral;
       ++(t.all.*counter);
       ++(of_label.*counter);
       if (z.verdict == Verdict::kNeutral) continue;
@@ -149,8 +149,7 @@ void add_score_memory(const Phantoms& phantoms, int sensor, const ScoreCalibrati
                           "Of the variance of one thing's false scores this part lasts: "
                           "maximum likelihood of " +
                               std::to_string(likeness->scores) + " of them"));
-  out.push_back(
-      estimated(at / "seconds", likeness->seconds, "For so long, from the same"));
+  out.push_back(estimated(at / "seconds", likeness->seconds, "For so long, from the same"));
 }
 
 /// Scores, clutter and shares of what is right: of all, or by label where phantoms look like one.
@@ -160,8 +159,8 @@ void add_false(const Tally& t, const std::vector<Phantoms>& phantoms, int sensor
                  share = at / "real_share", memory = at / "score_memory";
   const std::string unit = knowledge.dims == 2 ? "m^2" : "m^3";
   const bool odds = !phantoms.empty() && t.scored;
-  const bool by_label = std::any_of(phantoms.begin(), phantoms.end(),
-                                    [](const Phantoms& p) { return p.look >= 0; });
+  const bool by_label =
+      std::any_of(phantoms.begin(), phantoms.end(), [](const Phantoms& p) { return p.look >= 0; });
   if (t.volume <= 0)
     out.push_back(
         {JsonPath(), nullptr, dotted(at) + ": nothing was in view, clutter is as it was"});
@@ -195,8 +194,7 @@ void add_doubles(const Judgement& judgement, int sensor, const Tally& t, double 
   const auto doubles = fit_doubles(judgement, sensor, density, dims);
   if (!doubles) return;
   out.push_back(estimated(at / "double_detection", doubles->often,
-                          rounded(doubles->repeats) + " of " +
-                              std::to_string(doubles->detections) +
+                          rounded(doubles->repeats) + " of " + std::to_string(doubles->detections) +
                               " detections are expected to repeat one of the same frame that is "
                               "surer"));
 }
