@@ -158,8 +158,7 @@ void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Sight& sight,
     if (auto* somewhere = std::get_if<Somewhere>(&state.density))
       somewhere->miss(p, sight.visibility.of(*somewhere->footprint()));
     else if (!models[m].shares())
-      sight.miss(std::get<Kinematic>(state.density), p, shown.v_model[m],
-                 leaf.existence * state.weight);
+      sight.miss(std::get<Kinematic>(state.density), p, shown.v_model[m]);
   }
   for (auto& state : leaf.models) state.weight /= sum;
   follow_class(leaf, background);

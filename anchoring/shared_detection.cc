@@ -159,8 +159,7 @@ int draw_to_hosts(Leaf& leaf, const MapFrame& frame, const LeafVisibility& shown
     // Out of view, or missed like any other.
     double weight = 1 - in_view * hosts.total - shown.p * shown.v_model[m];
     const Kinematic before = density;
-    sight.miss(density, hosts.total + shown.p * (1 - hosts.total), in_view,
-               leaf.existence * leaf.models[m].weight);
+    sight.miss(density, hosts.total + shown.p * (1 - hosts.total), in_view);
     for (std::size_t z = 0; z < hosts.hidden.size(); ++z) {
       const double hidden = in_view * hosts.hidden[z];
       if (hidden <= 0) continue;

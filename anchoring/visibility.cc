@@ -83,6 +83,9 @@ const std::vector<double>& Visibility::of(const Footprint& footprint) const {
   return footprints_.emplace(&footprint, std::move(share)).first->second;
 }
 
+/// How exactly the mass in view must be known of what is there with probability p <= 1/2, so that a
+/// miss moves no probability by more than a tenth of what a version needs to be kept: by at most
+/// 4 p times the mass's error. What is likelier is taken as exactly as can be.
 double Visibility::exactness(double p) const {
   return p > 0.5 ? 0 : 0.1 * background_->knowledge.limits.min_existence / (4 * p);
 }

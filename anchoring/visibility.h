@@ -39,15 +39,11 @@ class Visibility {
 
   int dims() const { return background_->dims; }
 
-  /// How exactly the mass in view must be known of what is there with probability p <= 1/2, so that
-  /// a miss moves no probability by more than a tenth of what a version needs to be kept: by at
-  /// most 4 p times the mass's error. What is likelier is taken as exactly as can be: 0.
-  double exactness(double p) const;
-
   /// How much of the world is in view, m^dims.
   double volume() const { return volume_; }
 
  private:
+  double exactness(double p) const;
   /// Whether a density is so far from all that is in view that nothing of it counts.
   bool out_of_view(const Kinematic& density) const;
   /// The part of a density in view that no wall hides: its share of that in view, and how both
@@ -73,9 +69,8 @@ struct Sight {
   std::uint64_t birth;
 
   /// A predicted density is missed, of which the mass `seen` is in view and not hidden, and would
-  /// be detected with probability p. Where next to nothing, or all, is seen it stays as it is; so
-  /// it does where that makes no difference to what is there with probability `existence`.
-  void miss(Kinematic& density, double p, double seen, double existence) const;
+  /// be detected with probability p. Where next to nothing, or all, is seen it stays as it is.
+  void miss(Kinematic& density, double p, double seen) const;
 
  private:
   /// Of what is left of a density after a miss, the share by which it differs from what it was.

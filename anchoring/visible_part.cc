@@ -2,7 +2,6 @@
 // the rest.
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -131,10 +130,8 @@ SeenPart Visibility::part(const Gaussian& density, double seen, const Occlusion&
   return {seen, times(relative, hidden)};
 }
 
-void Sight::miss(Kinematic& density, double p, double seen, double existence) const {
-  // It adds up over frames, as an integral's errors do not.
-  const double least = std::max(kHardlyNews, 0.1 * visibility.exactness(existence));
-  if (p * seen * (1 - seen) < least * (1 - p * seen)) return;
+void Sight::miss(Kinematic& density, double p, double seen) const {
+  if (p * seen * (1 - seen) < kHardlyNews * (1 - p * seen)) return;
   const SeenPart part = visibility.part(density.position_density(), seen, occlusion, birth);
   anchord::miss(density, p, part, visibility.dims());
 }
