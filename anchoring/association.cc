@@ -28,14 +28,12 @@ constexpr double kWorthLookingAhead = -9.210340371976182;  // ln 1e-4
 class Children {
  public:
   Children(const Tied& tied, const ScratchVector<int>& detections, const MapFrame& frame,
-           std::uint64_t frame_number, const Visibility& visibility, const Occlusion& occlusion,
-           const Background& background)
+           std::uint64_t frame_number, const Visibility& visibility, const Background& background)
       : tied_(tied),
         detections_(detections),
         frame_(frame),
         frame_number_(frame_number),
         visibility_(visibility),
-        occlusion_(occlusion),
         background_(background),
         number_(tied.leaves.size() * (detections.size() + 1), kUnmade) {}
 
@@ -45,7 +43,7 @@ class Children {
     int& number = number_[leaf * (detections_.size() + 1) + z + 1];
     if (number == kUnmade) {
       auto child = make_pooled<Leaf>(tied_.leaves[leaf]->leaf);
-      become(*child, *tied_.leaves[leaf], z, tree.anchor->birth);
+      become(*child, *tied_.leaves[leaf], z);
       if (child->existence < background_.knowledge.limits.min_existence || child->existence <= 0) {
         number = Hypothesis::kNoLeaf;
       } else {
@@ -57,11 +55,10 @@ class Children {
   }
 
  private:
-  void become(Leaf& child, const PredictedLeaf& parent, int z, std::uint64_t birth) const {
-    const Sight sight{visibility_, occlusion_, birth};
+  void become(Leaf& child, const PredictedLeaf& parent, int z) const {
     int given = z == kMiss ? kMiss : detections_[z];
     if (z == kMiss && background_.shares)
-      given = draw_to_hosts(child, frame_, parent.shown, sight, background_);
+      given = draw_to_hosts(child, frame_, parent.shown, background_);
     const auto depth = static_cast<std::uint64_t>(background_.knowledge.limits.scan_depth);
     if (depth > 0) {
       const auto old = [&](std::uint64_t r) { return (r >> 16) + depth <= frame_number_; };
@@ -70,7 +67,8 @@ class Children {
       if (given != kMiss) child.recent.push_back(frame_number_ << 16 | given);
     }
     if (z == kMiss)
-      give_nothing(child, parent.shown, sight, frame_.sensor->detection_probability, background_);
+      give_nothing(child, parent.shown, visibility_, frame_.sensor->detection_probability,
+                   background_);
     else
       give(child, frame_.detections[detections_[z]], *frame_.sensor, background_);
   }
@@ -80,7 +78,6 @@ class Children {
   const MapFrame& frame_;
   std::uint64_t frame_number_;
   const Visibility& visibility_;
-  const Occlusion& occlusion_;
   const Background& background_;
   ScratchVector<int> number_;
 };
@@ -143,7 +140,7 @@ bool PredictedCluster::departed(double min_existence) const {
 Associated associate(const ScratchVector<PredictedCluster>& clusters,
                      const ScratchVector<int>& detections, const MapFrame& frame,
                      const ScratchVector<Origin>& origins, const Visibility& visibility,
-                     const Occlusion& occlusion, const Background& background, const Belief& belief,
+                     const Background& background, const Belief& belief,
                      const Allowance& allowance) {
   const Limits& limits = background.knowledge.limits;
   const Tied tied = tie(clusters, limits, allowance.parents);
@@ -162,7 +159,7 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
     joint.anchors.push_back({std::move(anchor), {std::move(leaf)}});
   }
 
-  Children children(tied, detections, frame, belief.frames, visibility, occlusion, background);
+  Children children(tied, detections, frame, belief.frames, visibility, background);
   RankedAssociations ranked(problem, background.log_least_weight);
   const Enough enough(limits, allowance);
   Associated out;

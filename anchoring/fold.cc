@@ -155,9 +155,8 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   if (left) *left -= std::min(*left, belief.effort.work);
   Budget budget(groups, left, background.knowledge.limits);
   for (const Group& group : groups) {
-    auto [clusters, log_sum, effort] =
-        associate(group.clusters, group.detections, frame, from, visibility, occlusion, background,
-                  belief, budget.next());
+    auto [clusters, log_sum, effort] = associate(group.clusters, group.detections, frame, from,
+                                                 visibility, background, belief, budget.next());
     std::move(clusters.begin(), clusters.end(), std::back_inserter(made));
     log_evidence += log_sum;
     budget.take(effort.work);

@@ -13,7 +13,7 @@
 
 namespace anchord {
 
-struct Sight;
+class Visibility;
 
 /// What a leaf believes about one attribute other than the class.
 struct AttributeBelief {
@@ -90,9 +90,8 @@ double log_attribute_ratio(const Leaf& leaf, const MapDetection& z, const Backgr
 /// A predicted leaf that is given z.
 void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Background& background);
 
-/// A predicted leaf that is given nothing, where `shown` is what the frame's view shows of it. What
-/// shares detections has learned where it is from draw_to_hosts().
-void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Sight& sight,
+/// A predicted leaf that is given nothing, where `shown` is what the frame's view shows of it.
+void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& visibility,
                   const std::vector<double>& detection_probability, const Background& background);
 
 /// The leaf of a new anchor; `terms` are p_D,c lambda_c(z) l(z|c) per class, `existence` their sum

@@ -140,7 +140,7 @@ void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Backgro
   follow_class(leaf, background);
 }
 
-void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Sight& sight,
+void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& visibility,
                   const std::vector<double>& detection_probability, const Background& background) {
   const double q = shown.q(), p = shown.p, v = shown.v;
   if (q <= 0) return;
@@ -148,17 +148,13 @@ void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Sight& sight,
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
     leaf.classes[c] *= (1 - detection_probability[c] * v) / (1 - q);
   normalise(leaf.classes, background);
-  const auto& models = background.object_class(leaf.model_class).models;
   double sum = 0;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     ModelState& state = leaf.models[m];
     state.weight *= (1 - p * shown.v_model[m]) / (1 - p * v);
     sum += state.weight;
-    if (shown.v_model[m] <= 0) continue;
-    if (auto* somewhere = std::get_if<Somewhere>(&state.density))
-      somewhere->miss(p, sight.visibility.of(*somewhere->footprint()));
-    else if (!models[m].shares())
-      sight.miss(std::get<Kinematic>(state.density), p, shown.v_model[m]);
+    if (auto* somewhere = std::get_if<Somewhere>(&state.density); somewhere && shown.v_model[m] > 0)
+      somewhere->miss(p, visibility.of(*somewhere->footprint()));
   }
   for (auto& state : leaf.models) state.weight /= sum;
   follow_class(leaf, background);

@@ -24,8 +24,6 @@ class Occlusion {
   Occlusion(const Belief& belief, const MapFrame& frame, const Background& background);
 
   bool none() const { return bodies_.empty(); }
-  /// Where the sensor is, unless none().
-  const Eigen::Vector3d& eye() const { return eye_; }
 
   /// The probability that nothing hides the centre of an object with this density; `birth` is its
   /// anchor, which does not hide itself. Hiding objects count as independent of each other. Costs

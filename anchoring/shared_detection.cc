@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "anchoring/visibility.h"
 #include "core/log_probability.h"
 
 namespace anchord {
@@ -148,7 +147,7 @@ void hide(const Leaf& leaf, const MapFrame& frame, const Background& background,
 }
 
 int draw_to_hosts(Leaf& leaf, const MapFrame& frame, const LeafVisibility& shown,
-                  const Sight& sight, const Background& background) {
+                  const Background& background) {
   const auto& models = background.object_class(leaf.model_class).models;
   int in = -1;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
@@ -159,7 +158,6 @@ int draw_to_hosts(Leaf& leaf, const MapFrame& frame, const LeafVisibility& shown
     // Out of view, or missed like any other.
     double weight = 1 - in_view * hosts.total - shown.p * shown.v_model[m];
     const Kinematic before = density;
-    sight.miss(density, hosts.total + shown.p * (1 - hosts.total), in_view);
     for (std::size_t z = 0; z < hosts.hidden.size(); ++z) {
       const double hidden = in_view * hosts.hidden[z];
       if (hidden <= 0) continue;

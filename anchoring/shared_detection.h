@@ -32,10 +32,10 @@ void hide(const Leaf& leaf, const MapFrame& frame, const Background& background,
           LeafVisibility& shown);
 
 /// The densities of a predicted leaf that gave nothing, where it may be hidden: drawn to the
-/// detections, as far as it is probable that it is in them, else missed; by moments. `shown` is
-/// after hide(). Returns the detection that it is in with probability above 1/2, or -1.
+/// detections, as far as it is probable that it is in them; by moments. `shown` is after hide().
+/// Returns the detection that it is in with probability above 1/2, or -1.
 int draw_to_hosts(Leaf& leaf, const MapFrame& frame, const LeafVisibility& shown,
-                  const Sight& sight, const Background& background);
+                  const Background& background);
 
 /// Detections of one object reported once more: the density (per m^d) of a repeat, at the z-th
 /// detection, of those of the frame that have a higher score, or the same and are earlier. It comes

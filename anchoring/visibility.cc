@@ -1,8 +1,11 @@
 #include "anchoring/visibility.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+
+#include "geometry/standard_normal.h"
 
 namespace anchord {
 namespace {
@@ -83,6 +86,35 @@ const std::vector<double>& Visibility::of(const Footprint& footprint) const {
   return footprints_.emplace(&footprint, std::move(share)).first->second;
 }
 
+double Visibility::clear_of_walls(const Gaussian& density) const {
+  // Points of equal probability: most of them across the line of sight, where walls end.
+  static constexpr std::array<double, 7> kAcross{-1.4652337927, -0.7916386078, -0.3661063568, 0,
+                                                 0.3661063568,  0.7916386078,  1.4652337927};
+  static constexpr std::array<double, 3> kElse{-0.9674215661, 0, 0.9674215661};
+  const Eigen::Vector3d towards = density.mean - *eye_;
+  const double bearing = std::atan2(towards.y(), towards.x());
+  Eigen::Matrix3d axes;  // upward, along, across
+  axes << 0, std::cos(bearing), -std::sin(bearing), 0, std::sin(bearing), std::cos(bearing), 1, 0,
+      0;
+  const Eigen::Matrix3d factor =
+      axes * upper_factor<3>(axes.transpose() * density.covariance * axes);
+  const std::size_t up = background_->dims == 3 ? kElse.size() : 1;
+  int in_view = 0, clear = 0, clear_at_all = 0;
+  for (const double across : kAcross)
+    for (const double along : kElse)
+      for (std::size_t k = 0; k < up; ++k) {
+        const double upward = up > 1 ? kElse[k] : 0;
+        const Eigen::Vector3d at = density.mean + factor * Eigen::Vector3d(upward, along, across);
+        const bool unhidden = !background_->walls.hide(*eye_, at);
+        clear_at_all += unhidden;
+        if (!view_.contains(at)) continue;
+        ++in_view;
+        clear += unhidden;
+      }
+  if (in_view > 0) return static_cast<double>(clear) / in_view;
+  return clear_at_all / static_cast<double>(kAcross.size() * kElse.size() * up);
+}
+
 /// How exactly the mass in view must be known of what is there with probability p <= 1/2, so that a
 /// miss moves no probability by more than a tenth of what a version needs to be kept: by at most
 /// 4 p times the mass's error. What is likelier is taken as exactly as can be.
@@ -114,7 +146,7 @@ LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_det
       if (out_of_view(*kinematic)) continue;
       const Gaussian density = kinematic->position_density();
       mass = view_.mass(density, exactness(leaf.existence * leaf.models[m].weight));
-      if (mass > 0 && eye_) mass *= clear_of_walls(density).share;
+      if (mass > 0 && eye_) mass *= clear_of_walls(density);
       if (mass > 0 && !occlusion.none()) mass *= occlusion.clear(density, birth);
     } else {
       const auto& somewhere = std::get<Somewhere>(leaf.models[m].density);

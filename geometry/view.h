@@ -13,14 +13,6 @@ namespace anchord {
 
 struct MassPrecision;
 
-/// How a density's mass in view changes with the density's mean m: the gradient g, 1/m, and the
-/// Hessian H, 1/m^2. With the mass v and the covariance P they are the moments of the density's
-/// part in view: its mean is m + P g / v, its covariance P + P (H / v - g g' / v^2) P (Stein 1981).
-struct MassDerivatives {
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-};
-
 /// What a sensor could see, placed in the map: a View and a Pose (its mean). Angles are compared
 /// modulo 2 pi, ranges are Euclidean from the sensor. In a 2-D world only x, y and yaw of the pose
 /// and range and bearing of the view are used (of a frustum: hfov and range).
@@ -41,11 +33,6 @@ class MapView {
   /// world) adaptive quadrature over directions, closed form along each ray; polygons as mass()
   /// of gaussian_mass.h. Error below 1e-6, or about `tolerance` where that is more, at less cost.
   double mass(const Gaussian& density, double tolerance = 0) const;
-
-  /// The derivatives of mass() with respect to the density's mean, as integrals over the edge of
-  /// the view: in closed form where only planes along one axis cut the density, else by quadrature
-  /// to about a hundredth of their size, mostly far better. Zero where nothing is cut.
-  MassDerivatives mass_derivatives(const Gaussian& density) const;
 
   /// The share of an axis-aligned box of the map that is in view. 0 and 1 are exact; a box on the
   /// edge is sampled (error below 0.05).
@@ -88,11 +75,6 @@ class MapView {
                    const MassPrecision& precision) const;
   double solid_mass(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance, bool any_range,
                     const MassPrecision& precision) const;
-  MassDerivatives polygon_derivatives(const Gaussian& density) const;
-  void flat_derivatives(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance,
-                        const Clearance& clear, MassDerivatives& out) const;
-  void solid_derivatives(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance,
-                         const Clearance& clear, MassDerivatives& out) const;
 
   View::Type type_ = View::Type::kNone;
   int dims_ = 3;

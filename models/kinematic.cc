@@ -1,11 +1,8 @@
 #include "models/kinematic.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
-
-#include "geometry/standard_normal.h"
 
 namespace anchord {
 namespace {
@@ -98,31 +95,6 @@ void keep_above_in(Kinematic& state, double floor) {
       solver.eigenvectors() * raised * solver.eigenvectors().transpose();
 }
 
-template <int D>
-void miss_in(Kinematic& state, double p, const SeenPart& seen) {
-  const double left = 1 - p * seen.mass, odds = p * seen.mass / left;
-  const Vector<D> gradient = -odds * seen.relative.gradient.head<D>();  // of ln(1 - p v)
-  Square<D> change = -odds * seen.relative.hessian.topLeftCorner<D, D>();
-  change -= gradient * gradient.transpose();  // its Hessian
-  const Square<D> pp = state.pp.topLeftCorner<D, D>(), pv = state.pv.topLeftCorner<D, D>();
-  // What is left holds the share (1 - p) / (1 - p v) of the density as it was.
-  const Square<D> factor = upper_factor<D>(pp);
-  Eigen::SelfAdjointEigenSolver<Square<D>> solver;
-  solver.computeDirect(factor.transpose() * change * factor);
-  const double least = (1 - p) / left - 1;
-  if (solver.eigenvalues().minCoeff() < least) {
-    const Square<D> axes = factor.inverse().transpose() * solver.eigenvectors();
-    change = axes * solver.eigenvalues().cwiseMax(least).asDiagonal() * axes.transpose();
-  }
-  state.position.head<D>() += pp * gradient;
-  state.velocity.head<D>() += pv.transpose() * gradient;
-  const Square<D> gain = pp * change, by_velocity = pv.transpose() * change;
-  const Square<D> more = gain * pp, more_velocity = by_velocity * pv;
-  state.pp.topLeftCorner<D, D>() += 0.5 * (more + more.transpose());
-  state.pv.topLeftCorner<D, D>() += gain * pv;
-  state.vv.topLeftCorner<D, D>() += 0.5 * (more_velocity + more_velocity.transpose());
-}
-
 }  // namespace
 
 Kinematic kinematic_at(const Gaussian& measurement, const ByAxis& velocity_variance, int dims) {
@@ -154,10 +126,6 @@ Fit fit(const Kinematic& state, const Gaussian& measurement, int dims) {
 
 void update(Kinematic& state, const Gaussian& measurement, int dims) {
   dims == 2 ? update_in<2>(state, measurement) : update_in<3>(state, measurement);
-}
-
-void miss(Kinematic& state, double p, const SeenPart& seen, int dims) {
-  dims == 2 ? miss_in<2>(state, p, seen) : miss_in<3>(state, p, seen);
 }
 
 Kinematic merge(double weight_a, const Kinematic& a, double weight_b, const Kinematic& b) {

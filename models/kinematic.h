@@ -4,7 +4,6 @@
 
 #include "geometry/by_axis.h"
 #include "geometry/gaussian.h"
-#include "geometry/view.h"
 
 namespace anchord {
 
@@ -42,19 +41,6 @@ Fit fit(const Kinematic& state, const Gaussian& measurement, int dims);
 /// Kalman update by a position measurement with positive definite R. Joseph's form for the
 /// position block, so that a very exact measurement leaves it positive definite.
 void update(Kinematic& state, const Gaussian& measurement, int dims);
-
-/// The part of a density that a sensor sees: its mass v, and how that changes with the density's
-/// mean, relative to v.
-struct SeenPart {
-  double mass = 0;
-  MassDerivatives relative;  ///< gradient / v, Hessian / v
-};
-
-/// After a miss, where what is seen is detected with probability p < 1: the mean and covariance of
-/// the density times 1 - p s(x), normalised, s(x) the probability of seeing x (moments by
-/// derivatives: Stein 1981). Velocity follows position as the covariance says. Variances stay
-/// positive: along no axis do they fall below the share (1 - p) / (1 - p v).
-void miss(Kinematic& state, double p, const SeenPart& seen, int dims);
 
 /// The Gaussian with the mean and covariance of the mixture of two; weights > 0, any sum.
 Kinematic merge(double weight_a, const Kinematic& a, double weight_b, const Kinematic& b);

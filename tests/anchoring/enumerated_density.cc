@@ -128,7 +128,7 @@ Eigen::MatrixXd exponential(Eigen::MatrixXd a) {
   return sum;
 }
 
-Sight Sight::of(const Frame& frame, const Sensor& sensor, int dims) {
+Sight Sight::of(const Frame& frame, const Sensor& sensor) {
   if (frame.pose) refuse("poses are not enumerated");
   const std::optional<View>& view = frame.view ? frame.view : sensor.view;
   Sight sight;
@@ -139,7 +139,6 @@ Sight Sight::of(const Frame& frame, const Sensor& sensor, int dims) {
     std::vector<Eigen::Vector2d> polygon;
     for (const auto& point : view->points) polygon.emplace_back(point[0], point[1]);
     sight.seen = rectangles(polygon);
-    sight.view = *MapView::place(*view, std::nullopt, dims);
   } else {
     refuse("sectors and frusta are not enumerated");
   }
@@ -179,7 +178,7 @@ Extent extent(const Knowledge& knowledge, const Cells& cells, int place) {
   Extent result{Eigen::VectorXd::Ones(cells.count()), cells.floor, cells.ceiling};
   if (place >= 0) {
     const Region& region = knowledge.places[place].region;
-    const Sight inside_of{false, rectangles(region.polygon), std::nullopt};
+    const Sight inside_of{false, rectangles(region.polygon)};
     double area = 0;
     for (const Rectangle& r : inside_of.seen) area += (r[2] - r[0]) * (r[3] - r[1]);
     for (int i = 0; i < cells.count(); ++i)
@@ -204,23 +203,6 @@ Moments merge(double weight_a, const Moments& a, double weight_b, const Moments&
     return m.covariance + (m.mean - mean) * (m.mean - mean).transpose();
   };
   return {mean, share * about_mean(a) + (1 - share) * about_mean(b)};
-}
-
-Moments missed(const Moments& state, double p, double seen, const Sight& sight, int dims) {
-  const double left = 1 - p * seen;
-  if (!sight.view || p * seen * (1 - seen) / left < 1e-6) return state;
-  Gaussian position;
-  position.mean.head(dims) = state.mean.head(dims);
-  position.covariance.topLeftCorner(dims, dims) = state.covariance.topLeftCorner(dims, dims);
-  const MassDerivatives change = sight.view->mass_derivatives(position);
-  // First and second moments of the part that is seen, times its mass, about the mean.
-  const Eigen::MatrixXd by_position = state.covariance.leftCols(dims);
-  const Eigen::VectorXd first = by_position * change.gradient.head(dims);
-  const Eigen::MatrixXd second =
-      seen * state.covariance +
-      by_position * change.hessian.topLeftCorner(dims, dims) * by_position.transpose();
-  const Eigen::VectorXd shift = -p * first / left;
-  return {state.mean + shift, (state.covariance - p * second) / left - shift * shift.transpose()};
 }
 
 Moments alone(const Moments& state, const BehaviourModel& model, int dims) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/frame.h"
-#include "geometry/view.h"
 #include "knowledge/knowledge.h"
 
 /// The densities of the enumeration, written for clarity and nothing else.
@@ -34,10 +33,9 @@ Eigen::MatrixXd exponential(Eigen::MatrixXd a);
 struct Sight {
   bool everything = false;
   std::vector<Rectangle> seen;  ///< nothing else is seen, unless `everything`
-  std::optional<MapView> view;  ///< the same, placed
 
   /// The frame's view, else the sensor's, else none. Aborts on sectors, frusta and poses.
-  static Sight of(const Frame& frame, const Sensor& sensor, int dims);
+  static Sight of(const Frame& frame, const Sensor& sensor);
   bool contains(const Eigen::Vector2d& point) const;
 };
 
@@ -70,10 +68,6 @@ struct Moments {
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
 };
-
-/// The mean and covariance that are left of a state that was missed, where the mass `seen` of its
-/// position is in view and detected with probability p. Where it hardly matters it stays as it is.
-Moments missed(const Moments& state, double p, double seen, const Sight& sight, int dims);
 
 /// The moments of the mixture of two densities with these weights, one of them positive.
 Moments merge(double weight_a, const Moments& a, double weight_b, const Moments& b);

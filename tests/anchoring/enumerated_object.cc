@@ -187,16 +187,14 @@ double Laws::miss(Object& object, const Sensor& sensor, const Sight& sight,
   double v = 0;
   for (std::size_t i = 0; i < m.size(); ++i) {
     v_m.push_back(visible(object.models[i], m[i], sight));
-    Moments& state = object.models[i].state;
-    if (m[i].tracked() && !m[i].shares() && v_m[i] > 0)
-      state = missed(state, p, v_m[i], sight, cells_.dims);
     if (m[i].shares() && object.models[i].weight > 0) {
+      Moments& state = object.models[i].state;
       const auto hidden = hidden_in(object, state, m[i], detections, knowledge_);
       const double in_view = v_m.back();
       v_m.back() *= hidden.back();
       // Out of view, or missed; then hidden in one or another.
       double weight = 1 - in_view + in_view * hidden.back() * (1 - p);
-      Moments sum = missed(state, 1 - hidden.back() * (1 - p), in_view, sight, cells_.dims);
+      Moments sum = state;
       for (std::size_t z = 0; z < detections.size(); ++z) {
         if (in_view * hidden[z] == 0) continue;
         Moments drawn = state;

@@ -123,7 +123,7 @@ class Enumeration {
     for (std::size_t t = 0; t < frames.size(); ++t) {
       Step step;
       step.sensor = &sensor_of(knowledge, frames[t]);
-      step.sight = Sight::of(frames[t], *step.sensor, knowledge.dims);
+      step.sight = Sight::of(frames[t], *step.sensor);
       if (t > 0) step.dt = seconds_between(frames[t - 1].utime, frames[t].utime);
       undetected.predict(step.dt);
       for (const Detection& detection : frames[t].detections) {

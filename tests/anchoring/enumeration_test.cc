@@ -381,7 +381,7 @@ TEST(Enumeration, MissesTellClassesApart) {
   const Laws laws(k);
   Object object = laws.born(measure(k, k.default_sensor, at(1, 1)), Eigen::Vector2d(0.6, 0.4));
   const double q = 0.6 * 0.9 + 0.4 * 0.3;
-  EXPECT_NEAR(laws.miss(object, k.default_sensor, Sight{true, {}, {}}, {}), 1 - q, kRounding);
+  EXPECT_NEAR(laws.miss(object, k.default_sensor, Sight{true, {}}, {}), 1 - q, kRounding);
   EXPECT_NEAR(object.classes(0), 0.6 * 0.1 / (1 - q), kRounding);
   EXPECT_EQ(object.object_class, 1);
 }

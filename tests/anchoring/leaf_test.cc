@@ -75,8 +75,7 @@ class Leaves : public testing::Test {
     }
     const Visibility visibility(f.view, f.eye, background());
     const auto& p = f.sensor->detection_probability;
-    const Occlusion none;
-    give_nothing(leaf, visibility.of(leaf, p, none, 0), {visibility, none, 0}, p, background());
+    give_nothing(leaf, visibility.of(leaf, p, {}, 0), visibility, p, background());
   }
 
   Leaf random_leaf() {

@@ -88,8 +88,8 @@ TEST(Roi, WhereASensorLookedInVainIsLeftOut) {
   options.models = R"([{"kind": "constant_position", "position_psd": 0.01},
                        {"kind": "somewhere", "rate": 0.02}])";
   World world(room(options));
-  ASSERT_TRUE(world.apply(cups_at({{4, 5}}, kStart)).ok());
-  for (int i = 1; i <= 20; ++i) {  // all, the object, but for a strip on the right
+  ASSERT_TRUE(world.apply(cups_at({{8, 8}}, kStart)).ok());
+  for (int i = 1; i <= 20; ++i) {  // the left half, the object, but for a strip on the right
     Frame empty = cups_at({}, kStart + from_seconds(60 + 0.01 * i));
     empty.view->type = View::Type::kPolygon;
     empty.view->points = {{0, 0}, {9, 0}, {9, 10}, {0, 10}};
