@@ -28,12 +28,14 @@ constexpr double kWorthLookingAhead = -9.210340371976182;  // ln 1e-4
 class Children {
  public:
   Children(const Tied& tied, const ScratchVector<int>& detections, const MapFrame& frame,
-           std::uint64_t frame_number, const Visibility& visibility, const Background& background)
+           std::uint64_t frame_number, const Visibility& visibility, const Occlusion& occlusion,
+           const Background& background)
       : tied_(tied),
         detections_(detections),
         frame_(frame),
         frame_number_(frame_number),
         visibility_(visibility),
+        occlusion_(occlusion),
         background_(background),
         number_(tied.leaves.size() * (detections.size() + 1), kUnmade) {}
 
@@ -43,7 +45,7 @@ class Children {
     int& number = number_[leaf * (detections_.size() + 1) + z + 1];
     if (number == kUnmade) {
       auto child = make_pooled<Leaf>(tied_.leaves[leaf]->leaf);
-      become(*child, *tied_.leaves[leaf], z);
+      become(*child, *tied_.leaves[leaf], z, tree.anchor->birth);
       if (child->existence < background_.knowledge.limits.min_existence || child->existence <= 0) {
         number = Hypothesis::kNoLeaf;
       } else {
@@ -55,7 +57,7 @@ class Children {
   }
 
  private:
-  void become(Leaf& child, const PredictedLeaf& parent, int z) const {
+  void become(Leaf& child, const PredictedLeaf& parent, int z, std::uint64_t birth) const {
     int given = z == kMiss ? kMiss : detections_[z];
     if (z == kMiss && background_.shares)
       given = draw_to_hosts(child, frame_, parent.shown, background_);
@@ -66,11 +68,13 @@ class Children {
                          child.recent.end());
       if (given != kMiss) child.recent.push_back(frame_number_ << 16 | given);
     }
-    if (z == kMiss)
+    if (z == kMiss) {
       give_nothing(child, parent.shown, visibility_, frame_.sensor->detection_probability,
                    background_);
-    else
-      give(child, frame_.detections[detections_[z]], *frame_.sensor, background_);
+    } else {
+      give(child, frame_.detections[detections_[z]], parent.shown, *frame_.sensor, background_);
+      visibility_.find(child, occlusion_, birth);
+    }
   }
 
   const Tied& tied_;
@@ -78,6 +82,7 @@ class Children {
   const MapFrame& frame_;
   std::uint64_t frame_number_;
   const Visibility& visibility_;
+  const Occlusion& occlusion_;
   const Background& background_;
   ScratchVector<int> number_;
 };
@@ -114,14 +119,14 @@ void restore(const ScratchVector<int>& parent, const ScratchVector<double>& log_
 }
 
 /// What detection z starts: an anchor with one leaf, or nothing worth keeping.
-std::shared_ptr<const Leaf> birth(int z, const MapFrame& frame, const Origin& origin,
-                                  std::uint64_t frame_number, const Background& background) {
+std::shared_ptr<Leaf> birth(int z, const MapFrame& frame, const Origin& origin,
+                            std::uint64_t frame_number, const Background& background) {
   const Limits& limits = background.knowledge.limits;
   if (origin.existence <= 0 || origin.existence < limits.min_existence) return nullptr;
   Leaf leaf = first_leaf(frame.detections[z], origin.terms, origin.existence, frame.utime,
                          background, origin.met);
   if (limits.scan_depth > 0) leaf.recent.push_back(frame_number << 16 | z);
-  return make_pooled<const Leaf>(std::move(leaf));
+  return make_pooled<Leaf>(std::move(leaf));
 }
 
 }  // namespace
@@ -140,7 +145,7 @@ bool PredictedCluster::departed(double min_existence) const {
 Associated associate(const ScratchVector<PredictedCluster>& clusters,
                      const ScratchVector<int>& detections, const MapFrame& frame,
                      const ScratchVector<Origin>& origins, const Visibility& visibility,
-                     const Background& background, const Belief& belief,
+                     const Occlusion& occlusion, const Background& background, const Belief& belief,
                      const Allowance& allowance) {
   const Limits& limits = background.knowledge.limits;
   const Tied tied = tie(clusters, limits, allowance.parents);
@@ -156,10 +161,11 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
     anchor_of[z] = static_cast<int>(joint.anchors.size());
     auto anchor =
         make_pooled<const Anchor>(Anchor{belief.births + detections[z] + 1, "", "", std::nullopt});
+    visibility.find(*leaf, occlusion, anchor->birth);
     joint.anchors.push_back({std::move(anchor), {std::move(leaf)}});
   }
 
-  Children children(tied, detections, frame, belief.frames, visibility, background);
+  Children children(tied, detections, frame, belief.frames, visibility, occlusion, background);
   RankedAssociations ranked(problem, background.log_least_weight);
   const Enough enough(limits, allowance);
   Associated out;

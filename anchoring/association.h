@@ -72,7 +72,7 @@ struct Associated {
 Associated associate(const ScratchVector<PredictedCluster>& clusters,
                      const ScratchVector<int>& detections, const MapFrame& frame,
                      const ScratchVector<Origin>& origins, const Visibility& visibility,
-                     const Background& background, const Belief& belief,
+                     const Occlusion& occlusion, const Background& background, const Belief& belief,
                      const Allowance& allowance);
 
 }  // namespace anchord

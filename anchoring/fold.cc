@@ -24,7 +24,8 @@ double log_gain(const PredictedLeaf& predicted, const Anchor& anchor, const MapD
   const bool named = !z.object.empty() && anchor.is_called(z.object);
   const Leaf& leaf = predicted.leaf;
   if (leaf.existence <= 0) return kLogZero;
-  const double log_g = log_likelihood(leaf, z, sensor.detection_probability, !named, background);
+  const double log_g =
+      log_likelihood(leaf, z, predicted.shown, sensor.detection_probability, !named, background);
   if (log_g == kLogZero) return kLogZero;
   double gain = std::log(leaf.existence) - predicted.log_miss - origin.log_weight + log_g;
   if (!z.object.empty() && !named) gain += std::log(sensor.identity_doubt);
@@ -155,8 +156,9 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   if (left) *left -= std::min(*left, belief.effort.work);
   Budget budget(groups, left, background.knowledge.limits);
   for (const Group& group : groups) {
-    auto [clusters, log_sum, effort] = associate(group.clusters, group.detections, frame, from,
-                                                 visibility, background, belief, budget.next());
+    auto [clusters, log_sum, effort] =
+        associate(group.clusters, group.detections, frame, from, visibility, occlusion, background,
+                  belief, budget.next());
     std::move(clusters.begin(), clusters.end(), std::back_inserter(made));
     log_evidence += log_sum;
     budget.take(effort.work);

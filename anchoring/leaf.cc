@@ -41,6 +41,9 @@ void flow(Leaf& leaf, const Matrix& p, const Background& background) {
         const Kinematic arriving =
             as_model(own_place(std::get<Kinematic>(before[from].density), models[from]), models[to],
                      background.dims);
+        SeenShare& seen = leaf.models[to].seen;
+        seen = weight > 0 ? SeenShare::merge(weight, seen, entering, before[from].seen)
+                          : before[from].seen;
         density = weight > 0 ? merge(weight, density, entering, arriving) : arriving;
       }
       weight += entering;
@@ -223,7 +226,7 @@ double class_ratio(const Leaf& leaf, const MapDetection& z, int c, const Backgro
          std::exp(z.score->log_ratio - leaf.scores.log_ratio(*z.score, leaf.utime));
 }
 
-double log_likelihood(const Leaf& leaf, const MapDetection& z,
+double log_likelihood(const Leaf& leaf, const MapDetection& z, const LeafVisibility& shown,
                       const std::vector<double>& detection_probability, bool gated,
                       const Background& background) {
   const double gate = background.knowledge.limits.gate_probability;
@@ -243,7 +246,7 @@ double log_likelihood(const Leaf& leaf, const MapDetection& z,
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     if (!counts(m)) continue;
     const PositionFit f = position_fit(leaf.models[m], z, background);
-    const double log_weight = std::log(leaf.models[m].weight) + f.log_likelihood;
+    const double log_weight = std::log(leaf.models[m].weight * shown.factor[m]) + f.log_likelihood;
     if (models[m].shares())
       log_shared =
           log_add(log_shared, log_weight + log_shared_ratio(leaf, z, models[m], background));

@@ -9,6 +9,7 @@
 
 #include "anchoring/background.h"
 #include "anchoring/map_frame.h"
+#include "anchoring/seen_share.h"
 #include "models/kinematic.h"
 
 namespace anchord {
@@ -26,6 +27,7 @@ struct AttributeBelief {
 struct ModelState {
   double weight = 0;
   std::variant<Kinematic, Somewhere> density;
+  SeenShare seen = {};  ///< of a tracked density
 };
 
 /// One version of an anchor, given one history of associations. A value; all of it holds for
@@ -55,7 +57,9 @@ struct Leaf {
 struct LeafVisibility {
   double v = 0;                                       ///< sum of w_m v_m
   double p = 0;                                       ///< sum of b(c) p_D,c
+  boost::container::small_vector<SeenPart, 2> parts;  ///< of tracked models' densities
   boost::container::small_vector<double, 2> v_model;  ///< v_m; 0 for an undetectable model
+  boost::container::small_vector<double, 2> factor;   ///< of each density in view, by earlier looks
   double q() const { return v * p; }                  ///< probability of being detected
 };
 
@@ -80,15 +84,16 @@ double class_ratio(const Leaf& leaf, const MapDetection& z, int c, const Backgro
 /// ln g(z | leaf) of a predicted leaf, not yet counting r; kLogZero where it cannot be.
 /// `detection_probability` is per class. With `gated`, also kLogZero where z lies outside the gates
 /// of all behaviour models that carry more weight than the gate leaves out.
-double log_likelihood(const Leaf& leaf, const MapDetection& z,
+double log_likelihood(const Leaf& leaf, const MapDetection& z, const LeafVisibility& shown,
                       const std::vector<double>& detection_probability, bool gated,
                       const Background& background);
 
 /// ln of what z's attributes other than the class are worth, the product of its L_A.
 double log_attribute_ratio(const Leaf& leaf, const MapDetection& z, const Background& background);
 
-/// A predicted leaf that is given z.
-void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Background& background);
+/// A predicted leaf that is given z, where `shown` is what the frame's view shows of it.
+void give(Leaf& leaf, const MapDetection& z, const LeafVisibility& shown, const Sensor& sensor,
+          const Background& background);
 
 /// A predicted leaf that is given nothing, where `shown` is what the frame's view shows of it.
 void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& visibility,

@@ -46,6 +46,10 @@ void take_over(ModelState& to, const ModelState& from, const BehaviourModel& old
       density = merge(to.weight, density, from.weight, arriving);
     else if (to.weight <= 0)
       density = arriving;
+    if (to.weight > 0 && from.weight > 0)
+      to.seen = SeenShare::merge(to.weight, to.seen, from.weight, from.seen);
+    else if (to.weight <= 0)
+      to.seen = from.seen;
   } else if (from.weight > 0) {
     auto& density = std::get<Somewhere>(to.density);
     if (!as_it_is)
@@ -125,10 +129,13 @@ Leaf merge(double weight_a, const Leaf& a, double weight_b, const Leaf& b,
     const double ma = wa * a.models[m].weight, mb = wb * b.models[m].weight;
     out.models[m].weight = ma + mb;
     if (ma <= 0 || mb <= 0) {
-      out.models[m].density = ma > 0 ? a.models[m].density : b.models[m].density;
+      const ModelState& only = ma > 0 ? a.models[m] : b.models[m];
+      out.models[m].density = only.density;
+      out.models[m].seen = only.seen;
     } else if (std::holds_alternative<Kinematic>(a.models[m].density)) {
       out.models[m].density = merge(ma, std::get<Kinematic>(a.models[m].density), mb,
                                     std::get<Kinematic>(b.models[m].density));
+      out.models[m].seen = SeenShare::merge(ma, a.models[m].seen, mb, b.models[m].seen);
     } else {
       out.models[m].density = Somewhere::merge(ma, std::get<Somewhere>(a.models[m].density), mb,
                                                std::get<Somewhere>(b.models[m].density));
@@ -165,6 +172,7 @@ double difference(const Leaf& a, const Leaf& b, const Background& background, do
     if (!ka || wa <= 0 || wb <= 0) continue;
     const double w = std::max(wa, wb);
     sum += w * difference(*ka, *kb, background.dims, (most - sum) / w);
+    sum += w * SeenShare::difference(a.models[m].seen, b.models[m].seen);
   }
   if (sum >= most) return std::min(sum, 1.0);
   for (std::size_t c = 0; c < a.classes.size(); ++c)

@@ -79,8 +79,8 @@ void learn_attributes(Leaf& leaf, const MapDetection& z, const Background& backg
 
 /// Bayes over the behaviour models; what was somewhere has been found at z and joins the first
 /// tracked model. Returns the probability that it did not share the detection.
-double update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
-                     const Background& background) {
+double update_models(Leaf& leaf, const MapDetection& z, const LeafVisibility& shown,
+                     const Sensor& sensor, const Background& background) {
   const int dims = background.dims;
   const auto& models = background.object_class(leaf.model_class).models;
   const int target = background.dynamics[leaf.model_class].first_detectable;
@@ -91,7 +91,8 @@ double update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
     if (!models[m].detectable || state.weight <= 0) continue;
     if (auto* kinematic = std::get_if<Kinematic>(&state.density)) {
       log_weight[m] =
-          std::log(state.weight) + fit(*kinematic, z.position, dims).log_likelihood +
+          std::log(state.weight * shown.factor[m]) +
+          fit(*kinematic, z.position, dims).log_likelihood +
           (models[m].shares() ? log_shared_ratio(leaf, z, models[m], background) : log_own);
       update(*kinematic, z.position, dims);
       keep_above(*kinematic, sensor.pose_floor, dims);
@@ -126,10 +127,11 @@ double update_models(Leaf& leaf, const MapDetection& z, const Sensor& sensor,
 
 }  // namespace
 
-void give(Leaf& leaf, const MapDetection& z, const Sensor& sensor, const Background& background) {
+void give(Leaf& leaf, const MapDetection& z, const LeafVisibility& shown, const Sensor& sensor,
+          const Background& background) {
   leaf.existence = 1;
   leaf.last_seen = leaf.utime;
-  const double own = update_models(leaf, z, sensor, background);
+  const double own = update_models(leaf, z, shown, sensor, background);
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
     leaf.classes[c] *=
         sensor.detection_probability[c] * class_ratio(leaf, z, static_cast<int>(c), background);
@@ -153,8 +155,11 @@ void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& vis
     ModelState& state = leaf.models[m];
     state.weight *= (1 - p * shown.v_model[m]) / (1 - p * v);
     sum += state.weight;
-    if (auto* somewhere = std::get_if<Somewhere>(&state.density); somewhere && shown.v_model[m] > 0)
+    if (shown.v_model[m] <= 0) continue;
+    if (auto* somewhere = std::get_if<Somewhere>(&state.density))
       somewhere->miss(p, visibility.of(*somewhere->footprint()));
+    else
+      state.seen.miss(shown.parts[m], p * shown.v_model[m]);
   }
   for (auto& state : leaf.models) state.weight /= sum;
   follow_class(leaf, background);

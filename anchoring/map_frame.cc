@@ -187,6 +187,15 @@ Result<MapDetection> place_detection(const Detection& from, const Frame& frame,
   return to;
 }
 
+/// FNV-1a: the same on every machine.
+std::uint32_t number_of(const std::string& robot, const std::string& sensor) {
+  std::uint32_t number = 2166136261u;
+  for (const std::string* name : {&robot, &sensor})
+    for (std::size_t i = 0; i <= name->size(); ++i)  // its end, too
+      number = (number ^ static_cast<unsigned char>(name->c_str()[i])) * 16777619u;
+  return number;
+}
+
 }  // namespace
 
 Result<MapFrame> place_in_map(const Frame& frame, const Background& background) {
@@ -204,6 +213,7 @@ Result<MapFrame> place_in_map(const Frame& frame, const Background& background) 
   out.utime = frame.utime;
   out.robot = frame.robot;
   out.sensor_name = frame.sensor;
+  out.viewer = number_of(frame.robot, frame.sensor);
   out.sensor = &background.knowledge.sensor(frame.sensor);
   const View view = frame.view ? *frame.view : out.sensor->view.value_or(View{});
   auto placed = MapView::place(view, frame.pose, background.dims);

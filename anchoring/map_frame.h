@@ -46,6 +46,7 @@ struct MapFrame {
   Utime utime = 0;
   std::string robot, sensor_name;
   const Sensor* sensor = nullptr;  ///< in the Background
+  std::uint32_t viewer = 0;  ///< a number for that sensor of that robot, the same in each frame
   MapView view;
   std::optional<Eigen::Vector3d> eye;  ///< where the sensor was, if it said so
   std::vector<MapDetection> detections;

@@ -1,5 +1,6 @@
 #include "anchoring/visibility.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,12 +63,12 @@ double sum(const Look& look) {
 
 }  // namespace
 
-Visibility::Visibility(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
-                       const Background& background)
-    : view_(view),
-      eye_(background.walls.none() ? std::nullopt : eye),
+Visibility::Visibility(const MapFrame& frame, const Background& background)
+    : viewer_(frame.viewer),
+      view_(frame.view),
+      eye_(background.walls.none() ? std::nullopt : frame.eye),
       background_(&background),
-      look_(look_at(view, eye_, background)),
+      look_(look_at(view_, eye_, background)),
       volume_(sum(look_) * background.cell_volume()) {}
 
 bool Visibility::same_for(const MapFrame& frame) const {
@@ -132,27 +133,50 @@ bool Visibility::out_of_view(const Kinematic& density) const {
   return false;
 }
 
+SeenPart Visibility::part(const Kinematic& kinematic, double p, const Occlusion& occlusion,
+                          std::uint64_t birth) const {
+  if (out_of_view(kinematic)) return {};
+  const Gaussian density = kinematic.position_density();
+  double mass = view_.mass(density, exactness(p));
+  if (mass > 0 && eye_) mass *= clear_of_walls(density);
+  if (mass > 0 && !occlusion.none()) mass *= occlusion.clear(density, birth);
+  SeenPart part{std::min(mass, 1.0), viewer_};
+  if (SeenShare::cuts(part.v))
+    part.variance = background_->dims == 3
+                        ? std::cbrt(kinematic.pp.determinant())
+                        : std::sqrt(kinematic.pp.topLeftCorner<2, 2>().determinant());
+  return part;
+}
+
+void Visibility::find(Leaf& leaf, const Occlusion& occlusion, std::uint64_t birth) const {
+  for (ModelState& state : leaf.models)
+    if (const auto* kinematic = std::get_if<Kinematic>(&state.density);
+        kinematic && state.weight > 0)
+      state.seen.find(part(*kinematic, leaf.existence * state.weight, occlusion, birth));
+}
+
 LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_detect,
                               const Occlusion& occlusion, std::uint64_t birth) const {
   LeafVisibility shown;
   for (std::size_t c = 0; c < leaf.classes.size(); ++c) shown.p += leaf.classes[c] * p_detect[c];
+  shown.parts.resize(leaf.models.size());
   shown.v_model.assign(leaf.models.size(), 0.0);
+  shown.factor.assign(leaf.models.size(), 1.0);
   if (view_.sees_nothing() || leaf.held) return shown;
   const auto& models = background_->object_class(leaf.model_class).models;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
-    if (!models[m].detectable || leaf.models[m].weight <= 0) continue;
-    double& mass = shown.v_model[m];
-    if (const auto* kinematic = std::get_if<Kinematic>(&leaf.models[m].density)) {
-      if (out_of_view(*kinematic)) continue;
-      const Gaussian density = kinematic->position_density();
-      mass = view_.mass(density, exactness(leaf.existence * leaf.models[m].weight));
-      if (mass > 0 && eye_) mass *= clear_of_walls(density);
-      if (mass > 0 && !occlusion.none()) mass *= occlusion.clear(density, birth);
+    const ModelState& state = leaf.models[m];
+    if (!models[m].detectable || state.weight <= 0) continue;
+    double& v = shown.v_model[m];
+    if (const auto* kinematic = std::get_if<Kinematic>(&state.density)) {
+      shown.parts[m] = part(*kinematic, leaf.existence * state.weight, occlusion, birth);
+      shown.factor[m] = state.seen.factor(shown.parts[m]);
+      v = shown.factor[m] * shown.parts[m].v;
     } else {
-      const auto& somewhere = std::get<Somewhere>(leaf.models[m].density);
-      mass = somewhere.mass(of(*somewhere.footprint()));
+      const auto& somewhere = std::get<Somewhere>(state.density);
+      v = somewhere.mass(of(*somewhere.footprint()));
     }
-    shown.v += leaf.models[m].weight * mass;
+    shown.v += state.weight * v;
   }
   shown.v = std::min(shown.v, 1.0);
   return shown;

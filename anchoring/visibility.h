@@ -14,8 +14,7 @@ namespace anchord {
 /// hides what is behind it from an eye; without one the view alone counts.
 class Visibility {
  public:
-  Visibility(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
-             const Background& background);
+  Visibility(const MapFrame& frame, const Background& background);
 
   /// Whether this is what another frame's view shows, too.
   bool same_for(const MapFrame& frame) const;
@@ -24,6 +23,10 @@ class Visibility {
   /// in this frame.
   LeafVisibility of(const Leaf& leaf, const std::vector<double>& detection_probability,
                     const Occlusion& occlusion, std::uint64_t birth) const;
+
+  /// Notes of the densities of a leaf that was just given a detection how much of them is in view:
+  /// there the object is. `birth` is its anchor.
+  void find(Leaf& leaf, const Occlusion& occlusion, std::uint64_t birth) const;
 
   /// Per cell of a footprint the share in view; the footprint is one of the Background's. Objects
   /// hide nothing of it.
@@ -37,11 +40,15 @@ class Visibility {
 
  private:
   double exactness(double p) const;
+  /// How much of a density is in view and not hidden; `p`: the probability that it is there.
+  SeenPart part(const Kinematic& density, double p, const Occlusion& occlusion,
+                std::uint64_t birth) const;
   /// Whether a density is so far from all that is in view that nothing of it counts.
   bool out_of_view(const Kinematic& density) const;
   /// The share of the part in view of a density that no wall hides.
   double clear_of_walls(const Gaussian& density) const;
 
+  std::uint32_t viewer_;  ///< MapFrame::viewer of that sensor
   MapView view_;
   std::optional<Eigen::Vector3d> eye_;  ///< none where there are no walls
   const Background* background_;

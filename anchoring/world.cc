@@ -52,7 +52,7 @@ std::optional<Utime> World::newest(const Frame& frame) const {
 const Visibility& World::visibility(const MapFrame& frame) {
   auto& kept = visibility_[{frame.robot, frame.sensor_name}];
   if (!kept || !kept->same_for(frame))
-    kept = std::make_shared<const Visibility>(frame.view, frame.eye, *background_);
+    kept = std::make_shared<const Visibility>(frame, *background_);
   return *kept;
 }
 

@@ -6,6 +6,7 @@
 
 #include "anchoring/association.h"
 #include "anchoring/leaf.h"
+#include "anchoring/visibility.h"
 #include "bench/crowd.h"
 #include "lcmtypes/checked_decode.h"
 #include "lcmtypes/codec.h"
@@ -25,6 +26,8 @@ struct Meeting {
   const std::vector<double>& detection_probability() const {
     return frame.sensor->detection_probability;
   }
+  LeafVisibility shown =
+      Visibility(frame, background).of(leaf, detection_probability(), Occlusion(), 0);
 };
 
 void BM_Fit(benchmark::State& state) {
@@ -39,7 +42,7 @@ void BM_LogLikelihood(benchmark::State& state) {
   const Meeting meeting;
   for (auto _ : state)
     benchmark::DoNotOptimize(log_likelihood(meeting.leaf, meeting.frame.detections[0],
-                                            meeting.detection_probability(), true,
+                                            meeting.shown, meeting.detection_probability(), true,
                                             meeting.background));
 }
 BENCHMARK(BM_LogLikelihood);
@@ -58,7 +61,8 @@ void BM_GiveLeaf(benchmark::State& state) {
   const Meeting meeting;
   for (auto _ : state) {
     Leaf leaf = meeting.leaf;
-    give(leaf, meeting.frame.detections[0], *meeting.frame.sensor, meeting.background);
+    give(leaf, meeting.frame.detections[0], meeting.shown, *meeting.frame.sensor,
+         meeting.background);
     benchmark::DoNotOptimize(leaf);
   }
 }

@@ -40,7 +40,7 @@ TEST(Allocation, AWarmEngineAsksTheSystemForNextToNone) {
   for (int step = 0; step < 600; ++step) {
     const MapFrame placed =
         place_in_map(frame(0.1 * step, rows(dice, 12, 6, 2, 0.05, 0.3)), background).value();
-    const Visibility visibility(placed.view, placed.eye, background);
+    const Visibility visibility(placed, background);
     const std::size_t before = allocations;
     fold(belief, placed, visibility, background);
     (step < 300 ? cold : warm) += allocations - before;

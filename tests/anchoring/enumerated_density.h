@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/frame.h"
@@ -33,6 +35,7 @@ Eigen::MatrixXd exponential(Eigen::MatrixXd a);
 struct Sight {
   bool everything = false;
   std::vector<Rectangle> seen;  ///< nothing else is seen, unless `everything`
+  std::string viewer = {};      ///< the sensor
 
   /// The frame's view, else the sensor's, else none. Aborts on sectors, frusta and poses.
   static Sight of(const Frame& frame, const Sensor& sensor);
@@ -80,11 +83,29 @@ Moments fit(const Moments& state, const BehaviourModel& model, int dims);
 /// detections are from it.
 Moments alone(const Moments& state, const BehaviourModel& model, int dims);
 
+/// A part of a density, or what is left beside it, as small as this counts as none.
+constexpr double kNothing = 1e-6;
+
+/// What a sensor's looks have told of the part of a density that a view of mass v holds, see
+/// SeenShare: here of any number of looks.
+struct Looks {
+  std::string viewer;
+  double deviation = 0;            ///< the density's, at the last look
+  std::map<double, double> share;  ///< by v
+
+  /// The share of a part as it was after the last look; and as it is before another one.
+  double at(double v) const;
+  double at(double v, const std::string& by, double deviation_now) const;
+  void miss(double v, double lost, const std::string& by, double deviation_now);
+};
+Looks merge(double weight_a, const Looks& a, double weight_b, const Looks& b);
+
 /// One behaviour model's share of an object. A model of weight 0 may have no moments.
 struct Density {
   double weight = 0;
   Moments state;          ///< tracked models
   Eigen::VectorXd cells;  ///< somewhere: the probability of each cell; flat inside a cell
+  Looks looks = {};       ///< tracked models
 };
 
 /// Position moments of a `somewhere` density.

@@ -31,6 +31,11 @@ bool is_tracked(const BehaviourModel& m) { return m.tracked(); }
 bool is_somewhere(const BehaviourModel& m) { return !m.tracked(); }
 bool can_be_found(const BehaviourModel& m) { return m.tracked() && m.detectable && !m.shares(); }
 
+/// The geometric mean of a state's standard deviations of position over its axes.
+double spread(const Moments& state, int dims) {
+  return std::pow(state.covariance.topLeftCorner(dims, dims).determinant(), 0.5 / dims);
+}
+
 void move(Moments& state, const BehaviourModel& model, int dims, double dt) {
   if (model.kind == Kind::kConstantPosition) {
     for (int i = 0; i < dims; ++i) state.covariance(i, i) += model.psd[i] * dt;
@@ -140,6 +145,9 @@ double Laws::predict(Object& object, double dt) const {
       const double entering = moved[from].weight * chain(from, to);
       if (from == to || entering == 0) continue;
       if (m[to].tracked()) {
+        density.looks = density.weight > 0
+                            ? merge(density.weight, density.looks, entering, moved[from].looks)
+                            : moved[from].looks;
         density.state =
             merge(density.weight, density.state, entering,
                   fit(alone(moved[from].state, m[from], cells_.dims), m[to], cells_.dims));
@@ -164,7 +172,11 @@ double Laws::predict(Object& object, double dt) const {
 
 double Laws::visible(const Density& density, const BehaviourModel& model,
                      const Sight& sight) const {
-  if (!model.detectable || density.weight == 0) return 0;
+  return model.detectable && density.weight > 0 ? mass_in_view(density, model, sight) : 0;
+}
+
+double Laws::mass_in_view(const Density& density, const BehaviourModel& model,
+                          const Sight& sight) const {
   if (sight.everything) return 1;
   double mass = 0;
   if (model.tracked()) {
@@ -183,10 +195,15 @@ double Laws::miss(Object& object, const Sensor& sensor, const Sight& sight,
   const auto& m = models(object);
   const Eigen::VectorXd detected = detection_probabilities(knowledge_, sensor);
   const double p = object.classes.dot(detected);
-  std::vector<double> v_m;
+  std::vector<double> v_m, mass, deviation;
   double v = 0;
   for (std::size_t i = 0; i < m.size(); ++i) {
-    v_m.push_back(visible(object.models[i], m[i], sight));
+    mass.push_back(visible(object.models[i], m[i], sight));
+    deviation.push_back(m[i].tracked() && object.models[i].weight > 0
+                            ? spread(object.models[i].state, cells_.dims)
+                            : 1);
+    v_m.push_back(m[i].tracked() ? object.models[i].looks.at(mass[i], sight.viewer, deviation[i])
+                                 : mass[i]);
     if (m[i].shares() && object.models[i].weight > 0) {
       Moments& state = object.models[i].state;
       const auto hidden = hidden_in(object, state, m[i], detections, knowledge_);
@@ -212,6 +229,7 @@ double Laws::miss(Object& object, const Sensor& sensor, const Sight& sight,
   for (std::size_t i = 0; i < m.size(); ++i) {
     Density& density = object.models[i];
     density.weight *= (1 - p * v_m[i]) / (1 - q);
+    if (m[i].tracked()) density.looks.miss(mass[i], p * v_m[i], sight.viewer, deviation[i]);
     if (m[i].tracked() || v_m[i] == 0) continue;
     for (int cell = 0; cell < cells_.count(); ++cell)
       if (sight.contains(cells_.centre(cell))) density.cells(cell) *= 1 - p;
@@ -232,7 +250,19 @@ double Laws::likelihood(const Density& density, const BehaviourModel& model,
   return density.cells(cell) / (cells_.edge * cells_.edge * (e.ceiling - e.floor));
 }
 
-double Laws::detect(Object& object, const Sensor& sensor, const Measurement& z) const {
+void Laws::find(Object& object, const Sight& sight) const {
+  const auto& m = models(object);
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    Density& density = object.models[i];
+    if (!m[i].tracked() || density.weight == 0) continue;
+    density.looks = {sight.viewer, spread(density.state, cells_.dims), {}};
+    const double v = mass_in_view(density, m[i], sight);
+    if (v >= 1e-3 && v < 1 - kNothing) density.looks.share[v] = 1;
+  }
+}
+
+double Laws::detect(Object& object, const Sensor& sensor, const Sight& sight,
+                    const Measurement& z) const {
   const auto& m = models(object);
   Eigen::VectorXd classes = object.classes.cwiseProduct(detection_probabilities(knowledge_, sensor))
                                 .cwiseProduct(z.class_ratio);
@@ -246,7 +276,11 @@ double Laws::detect(Object& object, const Sensor& sensor, const Measurement& z) 
   std::vector<double> weights;
   double alone = 0, shared = 0;
   for (std::size_t i = 0; i < m.size(); ++i) {
-    weights.push_back(object.models[i].weight * likelihood(object.models[i], m[i], z));
+    const Density& density = object.models[i];
+    weights.push_back(density.weight * likelihood(density, m[i], z));
+    const double v = visible(density, m[i], sight);
+    if (m[i].tracked() && v > kNothing)
+      weights[i] *= density.looks.at(v, sight.viewer, spread(density.state, cells_.dims)) / v;
     if (m[i].shares()) weights[i] *= joint_ratio(sizes(object, m[i], z, knowledge_));
     (m[i].shares() ? shared : alone) += weights[i];
   }
@@ -298,10 +332,11 @@ double Laws::detect(Object& object, const Sensor& sensor, const Measurement& z) 
   }
   object.classes = classes / classes.sum();
   follow_class(object);
+  find(object, sight);
   return classes.sum() * place;
 }
 
-Object Laws::born(const Measurement& z, Eigen::VectorXd classes) const {
+Object Laws::born(const Measurement& z, const Sight& sight, Eigen::VectorXd classes) const {
   Object object;
   if (z.score) object.scores.emplace_back(0, *z.score);
   object.classes = classes / classes.sum();
@@ -321,6 +356,7 @@ Object Laws::born(const Measurement& z, Eigen::VectorXd classes) const {
   if (total == 0) object.models[first(m, is_tracked)].weight = 1;
   for (const auto& [a, ratio] : z.symbol_ratio) object.symbols[a] = ratio / ratio.sum();
   object.scalars = z.scalar;
+  find(object, sight);
   return object;
 }
 
@@ -365,6 +401,8 @@ void Laws::follow_class(Object& object) const {
                                             : moments(density.cells, cells_, extent_of(from[i]));
     home.state =
         merge(home.weight, home.state, density.weight, fit(state, to[tracked], cells_.dims));
+    home.looks = home.weight > 0 ? merge(home.weight, home.looks, density.weight, density.looks)
+                                 : density.looks;
     home.weight += density.weight;
   }
   object.models = result;

@@ -56,9 +56,10 @@ class Laws {
               const std::vector<Measurement>& detections) const;
   /// Detected: returns g(z). Where that is 0 the object cannot have been it, and means nothing
   /// afterwards.
-  double detect(Object& object, const Sensor& sensor, const Measurement& z) const;
+  double detect(Object& object, const Sensor& sensor, const Sight& sight,
+                const Measurement& z) const;
   /// First detected; `classes` need not be normalised.
-  Object born(const Measurement& z, Eigen::VectorXd classes) const;
+  Object born(const Measurement& z, const Sight& sight, Eigen::VectorXd classes) const;
   /// Mean and covariance of its position over all models.
   Moments position(const Object& object) const;
 
@@ -68,8 +69,12 @@ class Laws {
   const std::vector<BehaviourModel>& models(const Object& object) const;
   const Extent& extent_of(const BehaviourModel& model) const { return extents_.at(model.place); }
   double visible(const Density& density, const BehaviourModel& model, const Sight& sight) const;
+  double mass_in_view(const Density& density, const BehaviourModel& model,
+                      const Sight& sight) const;
   double likelihood(const Density& density, const BehaviourModel& model,
                     const Measurement& z) const;
+  /// It is in what was seen.
+  void find(Object& object, const Sight& sight) const;
   /// Hands the densities to the models of the class that has become the most probable.
   void follow_class(Object& object) const;
 

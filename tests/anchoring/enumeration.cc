@@ -183,7 +183,7 @@ class Enumeration {
       World born = world;
       born.weight *= step.terms[d].sum() * doubt;
       const ObjectKey key{t, d};
-      born.members.push_back({key, true, true, laws_.born(z, step.terms[d])});
+      born.members.push_back({key, true, true, laws_.born(z, step.sight, step.terms[d])});
       born.origins[t].push_back(key);
       associate(t, std::move(born));
     }
@@ -192,7 +192,7 @@ class Enumeration {
       if (!world.members[k].exists || world.members[k].detected) continue;
       World seen = world;
       World::Member& member = seen.members[k];
-      const double g = laws_.detect(member.object, *step.sensor, z);
+      const double g = laws_.detect(member.object, *step.sensor, step.sight, z);
       if (g == 0) continue;
       seen.weight *= g * (named && *step.named[d] == member.key ? 1 : doubt);
       member.detected = true;

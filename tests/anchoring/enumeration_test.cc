@@ -290,8 +290,8 @@ TEST(Enumeration, SomewhereThatIsFoundMergesByMoments) {
   k.classes[0].models.push_back(somewhere);
   const Laws laws(k);
   const Sensor& sensor = k.default_sensor;
-  Object object = laws.born(measure(k, sensor, at(1.5, 1.5)), Eigen::VectorXd::Ones(1));
-  const double g = laws.detect(object, sensor, measure(k, sensor, at(1.9, 1.5)));
+  Object object = laws.born(measure(k, sensor, at(1.5, 1.5)), {}, Eigen::VectorXd::Ones(1));
+  const double g = laws.detect(object, sensor, {}, measure(k, sensor, at(1.9, 1.5)));
   const double a = 0.7 * density(0.4, 2 * kVariance), b = 0.3 / 16;
   EXPECT_NEAR(g, kDetected * (a + b), kRounding);
   const double w = a / (a + b);  // tracked: mean 1.7, variance 0.02; found: 1.9 and 0.04
@@ -329,7 +329,7 @@ TEST(Enumeration, ATrackedModelTakesTheMomentsOfAnother) {
   k.classes[0].models.push_back(moving);
   k.classes[0].transitions = {{0, 1, 0.4}};
   const Laws laws(k);
-  Object object = laws.born(measure(k, k.default_sensor, at(1, 1)), Eigen::VectorXd::Ones(1));
+  Object object = laws.born(measure(k, k.default_sensor, at(1, 1)), {}, Eigen::VectorXd::Ones(1));
   laws.predict(object, 1);  // all that has entered comes from the first: 0.04 + 0.3
   EXPECT_NEAR(object.models[1].weight, 1 - std::exp(-0.4), kRounding);
   EXPECT_NEAR(object.models[1].state.covariance(1, 1), 0.34, kRounding);
@@ -353,7 +353,7 @@ TEST(Enumeration, DensitiesFollowTheMostProbableClass) {
   k.classes[0].departure_rate = 2;
   const Laws laws(k);
   const auto born = [&] {
-    return Laws(k).born(measure(k, k.default_sensor, at(1, 1)), Eigen::Vector2d(0.75, 0.25));
+    return Laws(k).born(measure(k, k.default_sensor, at(1, 1)), {}, Eigen::Vector2d(0.75, 0.25));
   };
   const double w = 1 - std::exp(-0.5);
   Object object = born();
@@ -379,7 +379,7 @@ TEST(Enumeration, MissesTellClassesApart) {
   Knowledge k = two_classes(0.2, 0.2);
   k.default_sensor.detection_probability = {0.9, 0.3};
   const Laws laws(k);
-  Object object = laws.born(measure(k, k.default_sensor, at(1, 1)), Eigen::Vector2d(0.6, 0.4));
+  Object object = laws.born(measure(k, k.default_sensor, at(1, 1)), {}, Eigen::Vector2d(0.6, 0.4));
   const double q = 0.6 * 0.9 + 0.4 * 0.3;
   EXPECT_NEAR(laws.miss(object, k.default_sensor, Sight{true, {}}, {}), 1 - q, kRounding);
   EXPECT_NEAR(object.classes(0), 0.6 * 0.1 / (1 - q), kRounding);

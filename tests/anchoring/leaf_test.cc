@@ -69,13 +69,15 @@ class Leaves : public testing::Test {
     if (dice.chance(0.8))
       predict(leaf, leaf.utime + from_seconds(dice.scale(0.01, 30)), background());
     const MapFrame f = random_frame();
-    if (dice.chance(0.5)) {
-      give(leaf, f.detections[0], *f.sensor, background());
-      return;
-    }
-    const Visibility visibility(f.view, f.eye, background());
+    const Visibility visibility(f, background());
     const auto& p = f.sensor->detection_probability;
-    give_nothing(leaf, visibility.of(leaf, p, {}, 0), visibility, p, background());
+    const LeafVisibility shown = visibility.of(leaf, p, {}, 0);
+    if (dice.chance(0.5)) {
+      give(leaf, f.detections[0], shown, *f.sensor, background());
+      visibility.find(leaf, {}, 0);
+    } else {
+      give_nothing(leaf, shown, visibility, p, background());
+    }
   }
 
   Leaf random_leaf() {

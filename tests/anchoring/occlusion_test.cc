@@ -235,8 +235,10 @@ TEST(Occlusion, NothingChangesWithoutExtentsAndWallsOrWithoutAPose) {
   const auto text = [](const std::string& configuration, bool with_pose) {
     World world(small_world(configuration));
     for (int i = 0; i < 20; ++i) {
-      Frame f = posed(i, {0, 0, 0}, {cup(2, 2), cup(4, 4)});
-      f.detections.resize(i % 3 == 0 ? 2 : 1);
+      const bool both = i % 3 == 0;
+      const double x = both && with_pose ? 4 : 0;  // (4, 4) is seen from beyond the wall
+      Frame f = posed(i, {x, 0, 0}, {cup(2 - x, 2), cup(4 - x, 4)});
+      f.detections.resize(both ? 2 : 1);
       if (!with_pose) f.pose.reset();
       apply(world, {f});
     }
@@ -294,7 +296,7 @@ TEST(Occlusion, APartOfADensityIsBehindAWall) {
   apply(world, {frame(0, {at(4, 2, 0.25)})});
   const Background& background = *world.background();
   const auto next = place_in_map(posed(1, {1, 2, 0}), background);
-  const Visibility visibility(next->view, next->eye, background);
+  const Visibility visibility(*next, background);
   const Leaf& leaf = *world.belief()->clusters[0]->anchors[0].leaves[0];
   const LeafVisibility shown = visibility.of(leaf, {1, 1}, {}, 0);
   std::mt19937_64 random(3);

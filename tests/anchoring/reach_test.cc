@@ -15,7 +15,7 @@ namespace {
 
 /// How many clusters a frame passes over. Each must be one that it would leave as it is.
 int passed_over(const Belief& belief, const MapFrame& frame, const Background& background) {
-  const Visibility visibility(frame.view, frame.eye, background);
+  const Visibility visibility(frame, background);
   const Occlusion occlusion(belief, frame, background);
   const auto from = origins(belief, frame, background);
   Nearby nearby(frame, background);

@@ -26,7 +26,7 @@ double expected_amiss(const Recording& recording, const Background& background) 
   for (const Frame& frame : recording.frames) {
     const auto placed = place_in_map(frame, background);
     if (!visibility || !visibility->same_for(*placed))
-      visibility = std::make_unique<Visibility>(placed->view, placed->eye, background);
+      visibility = std::make_unique<Visibility>(*placed, background);
     Sums& sum = sums[frame.sensor];
     sum.volume += visibility->volume();
     for (std::size_t z = 0; z < frame.detections.size(); ++z) {

@@ -29,7 +29,7 @@ class Judge {
     auto placed = place_in_map(frame, background_);
     if (!placed) return placed.error();
     if (!visibility_ || !visibility_->same_for(*placed))
-      visibility_ = std::make_unique<Visibility>(placed->view, placed->eye, background_);
+      visibility_ = std::make_unique<Visibility>(*placed, background_);
     const auto rows = truth_.find(frame.utime);
     JudgedFrame out;
     out.utime = frame.utime;
