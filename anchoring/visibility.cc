@@ -54,6 +54,10 @@ Look look_at(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
   return look;
 }
 
+/// What a miss may move at the most without being told: of what a version needs to be kept. The same
+/// part of a density that moves so little is not missed twice, so that it does not add up.
+constexpr double kHardly = 0.025;
+
 double sum(const Look& look) {
   double shares = 0;
   for (const Look::Tile& tile : look.tiles)
@@ -69,7 +73,8 @@ Visibility::Visibility(const MapFrame& frame, const Background& background)
       eye_(background.walls.none() ? std::nullopt : frame.eye),
       background_(&background),
       look_(look_at(view_, eye_, background)),
-      volume_(sum(look_) * background.cell_volume()) {}
+      volume_(sum(look_) * background.cell_volume()),
+      hardly_(kHardly * background.knowledge.limits.min_existence) {}
 
 bool Visibility::same_for(const MapFrame& frame) const {
   return view_ == frame.view && (background_->walls.none() || eye_ == frame.eye);
@@ -172,6 +177,7 @@ LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_det
       shown.parts[m] = part(*kinematic, leaf.existence * state.weight, occlusion, birth);
       shown.factor[m] = state.seen.factor(shown.parts[m]);
       v = shown.factor[m] * shown.parts[m].v;
+      if (v * leaf.existence * state.weight < hardly_) v = 0;
     } else {
       const auto& somewhere = std::get<Somewhere>(state.density);
       v = somewhere.mass(of(*somewhere.footprint()));

@@ -54,6 +54,7 @@ class Visibility {
   const Background* background_;
   Look look_;
   double volume_;
+  double hardly_;  ///< what is there to be seen with less probability is not missed
   mutable std::map<const Footprint*, std::vector<double>> footprints_;  // filled when asked for
 };
 
