@@ -6,9 +6,9 @@
 namespace anchord {
 namespace {
 
-constexpr double kSame = 1e-12;   // masses closer than that are one
+constexpr double kSame = 1e-12;    // masses closer than that are one
 constexpr double kNothing = 1e-6;  // a part this small is none
-constexpr double kHardly = 1e-3;  // what is found where so little could be says the view is wrong
+constexpr double kHardly = 1e-3;   // what is found where so little could be says the view is wrong
 
 }  // namespace
 

@@ -54,8 +54,8 @@ Look look_at(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
   return look;
 }
 
-/// What a miss may move at the most without being told: of what a version needs to be kept. The same
-/// part of a density that moves so little is not missed twice, so that it does not add up.
+/// What a miss may move at the most without being told: of what a version needs to be kept. The
+/// same part of a density that moves so little is not missed twice, so that it does not add up.
 constexpr double kHardly = 0.025;
 
 double sum(const Look& look) {

@@ -206,48 +206,6 @@ Moments merge(double weight_a, const Moments& a, double weight_b, const Moments&
   return {mean, share * about_mean(a) + (1 - share) * about_mean(b)};
 }
 
-double Looks::at(double v) const {
-  std::pair<double, double> below(0, 0), above(1, 1);
-  for (const auto& [edge, s] : share) {
-    if (edge < v) below = {edge, s};
-    if (edge >= v && edge < above.first) above = {edge, s};
-  }
-  const auto [v0, s0] = below;
-  const auto [v1, s1] = above;
-  return v1 == v0 ? s1 : s0 + (s1 - s0) * (v - v0) / (v1 - v0);
-}
-
-double Looks::at(double v, const std::string& by, double deviation_now) const {
-  if (by != viewer || v <= kNothing || v >= 1 - kNothing) return v;
-  return v + std::min(1.0, deviation / deviation_now) * (at(v) - v);
-}
-
-void Looks::miss(double v, double lost, const std::string& by, double deviation_now) {
-  if (v <= kNothing || lost == 0) return;
-  if (by != viewer || v >= 1 - kNothing) share.clear();
-  if (v >= 1 - kNothing) return;
-  const double kept = std::min(1.0, deviation / deviation_now);
-  for (auto& [edge, s] : share) s = edge + kept * (s - edge);
-  viewer = by;
-  deviation = deviation_now;
-  const double before = share[v] = at(v);
-  for (auto& [edge, s] : share) s = (s - lost * (edge <= v ? s / before : 1)) / (1 - lost);
-}
-
-Looks merge(double weight_a, const Looks& a, double weight_b, const Looks& b) {
-  if (weight_a < weight_b) return merge(weight_b, b, weight_a, a);
-  if (!a.share.empty() && !b.share.empty() && a.viewer != b.viewer)
-    return merge(weight_a, a, weight_b, Looks());
-  Looks out = a.share.empty() ? b : a;
-  const double wa = weight_a / (weight_a + weight_b);
-  if (!a.share.empty() && !b.share.empty())
-    out.deviation =
-        std::sqrt(wa * a.deviation * a.deviation + (1 - wa) * b.deviation * b.deviation);
-  for (const Looks* looks : {&a, &b})
-    for (const auto& [v, s] : looks->share) out.share[v] = wa * a.at(v) + (1 - wa) * b.at(v);
-  return out;
-}
-
 Moments alone(const Moments& state, const BehaviourModel& model, int dims) {
   if (!model.shares()) return state;
   Eigen::MatrixXd sum(dims, 2 * dims);

@@ -83,6 +83,9 @@ Moments fit(const Moments& state, const BehaviourModel& model, int dims);
 /// detections are from it.
 Moments alone(const Moments& state, const BehaviourModel& model, int dims);
 
+/// The geometric mean of a state's standard deviations of position over its axes.
+double spread(const Moments& state, int dims);
+
 /// A part of a density, or what is left beside it, as small as this counts as none.
 constexpr double kNothing = 1e-6;
 

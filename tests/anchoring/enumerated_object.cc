@@ -31,11 +31,6 @@ bool is_tracked(const BehaviourModel& m) { return m.tracked(); }
 bool is_somewhere(const BehaviourModel& m) { return !m.tracked(); }
 bool can_be_found(const BehaviourModel& m) { return m.tracked() && m.detectable && !m.shares(); }
 
-/// The geometric mean of a state's standard deviations of position over its axes.
-double spread(const Moments& state, int dims) {
-  return std::pow(state.covariance.topLeftCorner(dims, dims).determinant(), 0.5 / dims);
-}
-
 void move(Moments& state, const BehaviourModel& model, int dims, double dt) {
   if (model.kind == Kind::kConstantPosition) {
     for (int i = 0; i < dims; ++i) state.covariance(i, i) += model.psd[i] * dt;
@@ -170,26 +165,6 @@ double Laws::predict(Object& object, double dt) const {
   return leaves;
 }
 
-double Laws::visible(const Density& density, const BehaviourModel& model,
-                     const Sight& sight) const {
-  return model.detectable && density.weight > 0 ? mass_in_view(density, model, sight) : 0;
-}
-
-double Laws::mass_in_view(const Density& density, const BehaviourModel& model,
-                          const Sight& sight) const {
-  if (sight.everything) return 1;
-  double mass = 0;
-  if (model.tracked()) {
-    for (const Rectangle& r : sight.seen)
-      mass += probability(density.state.mean.head<2>(),
-                          density.state.covariance.topLeftCorner<2, 2>(), r);
-  } else {
-    for (int i = 0; i < cells_.count(); ++i)
-      if (sight.contains(cells_.centre(i))) mass += density.cells(i);
-  }
-  return mass;
-}
-
 double Laws::miss(Object& object, const Sensor& sensor, const Sight& sight,
                   const std::vector<Measurement>& detections) const {
   const auto& m = models(object);
@@ -248,17 +223,6 @@ double Laws::likelihood(const Density& density, const BehaviourModel& model,
   const int cell = cells_.find(z.position);
   if (cell < 0 || (d == 3 && (z.position(2) < e.floor || z.position(2) > e.ceiling))) return 0;
   return density.cells(cell) / (cells_.edge * cells_.edge * (e.ceiling - e.floor));
-}
-
-void Laws::find(Object& object, const Sight& sight) const {
-  const auto& m = models(object);
-  for (std::size_t i = 0; i < m.size(); ++i) {
-    Density& density = object.models[i];
-    if (!m[i].tracked() || density.weight == 0) continue;
-    density.looks = {sight.viewer, spread(density.state, cells_.dims), {}};
-    const double v = mass_in_view(density, m[i], sight);
-    if (v >= 1e-3 && v < 1 - kNothing) density.looks.share[v] = 1;
-  }
 }
 
 double Laws::detect(Object& object, const Sensor& sensor, const Sight& sight,

@@ -35,6 +35,33 @@ constexpr const char* kTwoKinds = R"({"classes": {
                                                   {"from": "green", "to": "blue", "rate": 0.02},
                                                   {"from": "blue", "to": "red", "rate": 0.3}]}}}}})";
 
+double weights(const Leaf& leaf) {
+  double sum = 0;
+  for (const auto& model : leaf.models) sum += model.weight;
+  return sum;
+}
+
+void expect_alike(const Leaf& a, const Leaf& b, const Background& background) {
+  EXPECT_NEAR(a.existence, b.existence, kRounding);
+  ASSERT_EQ(a.model_class, b.model_class);
+  for (std::size_t c = 0; c < a.classes.size(); ++c)
+    EXPECT_NEAR(a.classes[c], b.classes[c], kRounding);
+  for (std::size_t m = 0; m < a.models.size(); ++m)
+    EXPECT_NEAR(a.models[m].weight, b.models[m].weight, kRounding);
+  ASSERT_EQ(a.attributes.size(), b.attributes.size());
+  for (std::size_t i = 0; i < a.attributes.size(); ++i) {
+    EXPECT_NEAR(a.attributes[i].mean, b.attributes[i].mean, kRounding);
+    EXPECT_NEAR(a.attributes[i].variance, b.attributes[i].variance, kRounding);
+    for (std::size_t s = 0; s < a.attributes[i].symbols.size(); ++s)
+      EXPECT_NEAR(a.attributes[i].symbols[s], b.attributes[i].symbols[s], kRounding);
+  }
+  const Gaussian x = moments(a), y = moments(b);
+  EXPECT_TRUE(x.mean.isApprox(y.mean, kRounding));
+  EXPECT_TRUE(x.covariance.isApprox(y.covariance, 1e-9)) << "differences of squares";
+  EXPECT_EQ(a.utime, b.utime);
+  EXPECT_LT(difference(a, b, background), 1e-9);
+}
+
 class Leaves : public testing::Test {
  protected:
   explicit Leaves(const char* configuration = kTwoKinds) : world(small_world(configuration)) {}
@@ -86,47 +113,24 @@ class Leaves : public testing::Test {
     return leaf;
   }
 
+  /// Two predictions of a leaf and a long one.
+  void expect_steps_to_be_one(const Leaf& leaf) {
+    Leaf once = leaf, twice = leaf;
+    const Utime end = leaf.utime + from_seconds(dice.scale(0.01, 100));
+    predict(once, end, background());
+    predict(twice, end - (end - leaf.utime) / 3, background());
+    predict(twice, end, background());
+    expect_alike(once, twice, background());
+  }
+
   std::mt19937_64 random{9};
   Dice dice{random};
   World world;
 };
 
-double weights(const Leaf& leaf) {
-  double sum = 0;
-  for (const auto& model : leaf.models) sum += model.weight;
-  return sum;
-}
-
-void expect_alike(const Leaf& a, const Leaf& b, const Background& background) {
-  EXPECT_NEAR(a.existence, b.existence, kRounding);
-  ASSERT_EQ(a.model_class, b.model_class);
-  for (std::size_t c = 0; c < a.classes.size(); ++c)
-    EXPECT_NEAR(a.classes[c], b.classes[c], kRounding);
-  for (std::size_t m = 0; m < a.models.size(); ++m)
-    EXPECT_NEAR(a.models[m].weight, b.models[m].weight, kRounding);
-  ASSERT_EQ(a.attributes.size(), b.attributes.size());
-  for (std::size_t i = 0; i < a.attributes.size(); ++i) {
-    EXPECT_NEAR(a.attributes[i].mean, b.attributes[i].mean, kRounding);
-    EXPECT_NEAR(a.attributes[i].variance, b.attributes[i].variance, kRounding);
-    for (std::size_t s = 0; s < a.attributes[i].symbols.size(); ++s)
-      EXPECT_NEAR(a.attributes[i].symbols[s], b.attributes[i].symbols[s], kRounding);
-  }
-  const Gaussian x = moments(a), y = moments(b);
-  EXPECT_TRUE(x.mean.isApprox(y.mean, kRounding));
-  EXPECT_TRUE(x.covariance.isApprox(y.covariance, 1e-9)) << "differences of squares";
-  EXPECT_EQ(a.utime, b.utime);
-  EXPECT_LT(difference(a, b, background), 1e-9);
-}
-
 TEST_F(Leaves, TwoPredictionsEqualOneLongOne) {
   for (int n = 0; n < 200; ++n) {
-    Leaf once = random_leaf();
-    Leaf twice = once;
-    const Utime end = once.utime + from_seconds(dice.scale(0.01, 100));
-    predict(once, end, background());
-    predict(twice, end - (end - twice.utime) / 3, background());
-    predict(twice, end, background());
-    expect_alike(once, twice, background());
+    expect_steps_to_be_one(random_leaf());
   }
 }
 
@@ -151,15 +155,10 @@ struct HidingLeaves : Leaves {
 TEST_F(HidingLeaves, TwoPredictionsEqualOneLongOneWhereTheMotionIsTheSame) {
   for (int n = 0; n < 200; ++n) {
     const MapFrame f = random_frame();
-    Leaf once = first_leaf(f.detections[0], std::array{dice.uniform(0.1, 1), dice.uniform(0.1, 1)},
+    Leaf leaf = first_leaf(f.detections[0], std::array{dice.uniform(0.1, 1), dice.uniform(0.1, 1)},
                            dice.uniform(0.1, 1), at_second(0), background());
-    for (int i = dice.integer(0, 6); i > 0; --i) live(once);
-    Leaf twice = once;
-    const Utime end = once.utime + from_seconds(dice.scale(0.01, 100));
-    predict(once, end, background());
-    predict(twice, end - (end - twice.utime) / 3, background());
-    predict(twice, end, background());
-    expect_alike(once, twice, background());
+    for (int i = dice.integer(0, 6); i > 0; --i) live(leaf);
+    expect_steps_to_be_one(leaf);
   }
 }
 
