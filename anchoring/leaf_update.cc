@@ -159,7 +159,8 @@ void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& vis
     if (auto* somewhere = std::get_if<Somewhere>(&state.density))
       somewhere->miss(p, visibility.of(*somewhere->footprint()));
     else
-      state.seen.miss(shown.parts[m], p * shown.v_model[m]);
+      state.seen.miss(visibility.aimed(shown.parts[m], std::get<Kinematic>(state.density)),
+                      p * shown.v_model[m]);
   }
   for (auto& state : leaf.models) state.weight /= sum;
   follow_class(leaf, background);

@@ -18,13 +18,6 @@ double predicate_probability(const AttributeBelief& belief, const Predicate& pre
                         (predicate.max - belief.mean) / sigma);
 }
 
-/// As it is then, given that it is no phantom.
-Leaf predicted(const Leaf& leaf, Utime at, const Background& background) {
-  Leaf out = leaf;
-  if (at > leaf.utime) predict(out, at, background);
-  return as_real(std::move(out), background);
-}
-
 /// The mass of a density in the union of all places. Where outermost places are disjoint and hold
 /// their inner ones, the sum over the outermost; else by equally probable points.
 double mass_in_any_place(const Gaussian& density, const Background& background) {
@@ -198,33 +191,6 @@ const Leaf& ObjectBelief::shown() const {
 
 Utime ObjectBelief::last_seen() const { return shown().last_seen; }
 
-std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double min_p,
-                                       const Background& background) {
-  std::vector<ObjectBelief> out;
-  for (const auto& cluster : belief.clusters)
-    for (std::size_t a = 0; a < cluster->anchors.size(); ++a) {
-      ObjectBelief object;
-      object.anchor = cluster->anchors[a].anchor;
-      const auto& leaves = cluster->anchors[a].leaves;
-      for (const auto& leaf : leaves)
-        object.versions.push_back({0, predicted(*leaf, at, background)});
-      for (const Hypothesis& h : cluster->hypotheses)
-        if (h.leaf[a] != Hypothesis::kNoLeaf)
-          object.versions[h.leaf[a]].probability += std::exp(h.log_weight);
-      for (const auto& version : object.versions)
-        object.p += version.probability * version.leaf.existence;
-      object.p = std::min(object.p, 1.0);  // sums of rounded weights
-      object.best = cluster->hypotheses[cluster->leading].leaf[a];
-      object.in_best =
-          object.best >= 0 && object.versions[object.best].leaf.existence >= kBelievedIn;
-      if (object.p >= min_p && object.p > 0) out.push_back(std::move(object));
-    }
-  std::sort(out.begin(), out.end(), [](const ObjectBelief& a, const ObjectBelief& b) {
-    return a.anchor->birth < b.anchor->birth;
-  });
-  return out;
-}
-
 std::vector<double> count_distribution(const Belief& belief, Utime at,
                                        const Description& description, int place,
                                        const Background& background) {
@@ -242,7 +208,7 @@ std::vector<double> count_distribution(const Belief& belief, Utime at,
     std::vector<std::vector<double>> counts(cluster->anchors.size());
     for (std::size_t a = 0; a < cluster->anchors.size(); ++a)
       for (const auto& stored : cluster->anchors[a].leaves) {
-        const Leaf leaf = predicted(*stored, at, background);
+        const Leaf leaf = leaf_at(*stored, at, background);
         double p = leaf.existence * match(leaf, description, background);
         if (p > 0 && place >= 0) p *= mass_in_place(leaf, place, background);
         counts[a].push_back(std::min(p, 1.0));

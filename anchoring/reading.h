@@ -10,6 +10,14 @@
 namespace anchord {
 
 /// What is believed about one object at one time, over all hypotheses of its cluster.
+///
+/// Which anchor an object is in worlds other than the one shown is a matter of names: a thing that
+/// is there for certain may be an old object in one world and a new one in the next. So an object
+/// that stands in the best world is meant in every world: as its own anchor, and where that is not
+/// there as another one that is not in the best world and had one of its last detections (of the
+/// last `scan_depth` frames). That one is then not counted for itself, so that what is expected of
+/// all objects together is what it is of all anchors. With `scan_depth` 0 an anchor is what its
+/// name says.
 struct ObjectBelief {
   /// One leaf, predicted to the time of the reading, as_real().
   struct Version {
@@ -70,6 +78,9 @@ double mass_in_place(const Leaf& leaf, int place, const Background& background);
 
 /// The mass of a leaf's density outside every place.
 double mass_outside_places(const Leaf& leaf, const Background& background);
+
+/// A leaf at a time not before its own, as_real(); its densities as looks have told them.
+Leaf leaf_at(const Leaf& leaf, Utime at, const Background& background);
 
 /// Every anchor of p >= min_p at time `at` (not before the belief's), in order of birth.
 std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double min_p,

@@ -1,7 +1,10 @@
 #include "anchoring/seen_share.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <numbers>
 
 namespace anchord {
 namespace {
@@ -11,6 +14,11 @@ constexpr double kNothing = 1e-6;  // a part this small is none
 constexpr double kHardly = 1e-3;   // what is found where so little could be says the view is wrong
 
 }  // namespace
+
+double variance_of(const Kinematic& density, int dims) {
+  return dims == 3 ? std::cbrt(density.pp.determinant())
+                   : std::sqrt(density.pp.topLeftCorner<2, 2>().determinant());
+}
 
 bool SeenShare::cuts(double v) { return v > kNothing && v < 1 - kNothing; }
 
@@ -71,6 +79,12 @@ double SeenShare::factor(const SeenPart& part) const {
   return cuts(part.v) ? share(part) / part.v : 1;
 }
 
+void SeenShare::remember(const SeenPart& part) {
+  viewer_ = part.viewer;
+  variance_ = part.variance;
+  toward_ = part.toward;
+}
+
 void SeenShare::miss(const SeenPart& part, double lost) {
   if (lost <= 0 || part.v <= kNothing) return;
   if (!cuts(part.v) || part.viewer != viewer_) count_ = 0;
@@ -78,8 +92,7 @@ void SeenShare::miss(const SeenPart& part, double lost) {
   const double k = kept(part.variance);
   for (std::size_t i = 0; i < count_; ++i)
     points_[i].share = points_[i].v + k * (points_[i].share - points_[i].v);
-  viewer_ = part.viewer;
-  variance_ = part.variance;
+  remember(part);
   const std::size_t seen = point_at(part.v);
   const double before = points_[seen].share;  // down to nothing
   const double left = before > lost ? 1 - lost / before : 0;
@@ -88,10 +101,44 @@ void SeenShare::miss(const SeenPart& part, double lost) {
 }
 
 void SeenShare::find(const SeenPart& part) {
-  viewer_ = part.viewer;
-  variance_ = part.variance;
+  remember(part);
   count_ = part.v >= kHardly && cuts(part.v) ? 1 : 0;
   points_[0] = {part.v, 1};
+}
+
+Kinematic SeenShare::told(const Kinematic& density, int dims) const {
+  const double a = toward_.dot(density.pp * toward_);
+  if (count_ == 0 || a <= 0) return density;
+  // In standard deviations t towards the view, of which the part of mass v lies above
+  // sqrt(2) erfc^-1(2 v); between two points the density is so many times what it was.
+  const double k = kept(variance_of(density, dims));
+  double mean = 0, square = 0;
+  Point below{0, 0};
+  double bell_below = 0, t_bell_below = 0;  // phi(t), t phi(t)
+  for (std::size_t i = 0; i <= count_; ++i) {
+    const Point above = i < count_ ? points_[i] : Point{1, 1};
+    double bell = 0, t_bell = 0;
+    if (i < count_) {
+      const double t = std::numbers::sqrt2 * boost::math::erfc_inv(2 * above.v);
+      bell = std::exp(-t * t / 2) / std::sqrt(2 * std::numbers::pi);
+      t_bell = t * bell;
+    }
+    const double v = above.v - below.v;
+    const double times = 1 + k * ((above.share - below.share) / v - 1);
+    mean += times * (bell - bell_below);
+    square += times * (v + t_bell - t_bell_below);
+    below = above, bell_below = bell, t_bell_below = t_bell;
+  }
+  const double wider = square - mean * mean - 1;
+  const Eigen::Vector3d step = density.pp * toward_ / std::sqrt(a);
+  const Eigen::Vector3d faster = density.pv.transpose() * toward_ / std::sqrt(a);
+  Kinematic out = density;
+  out.position += mean * step;
+  out.velocity += mean * faster;
+  out.pp += wider * step * step.transpose();
+  out.pv += wider * step * faster.transpose();
+  out.vv += wider * faster * faster.transpose();
+  return out;
 }
 
 SeenShare SeenShare::merge(double weight_a, const SeenShare& a, double weight_b,
@@ -113,6 +160,7 @@ SeenShare SeenShare::merge(double weight_a, const SeenShare& a, double weight_b,
   }
   SeenShare out = a.count_ > 0 ? a : b;
   if (a.count_ > 0 && b.count_ > 0) out.variance_ = wa * a.variance_ + (1 - wa) * b.variance_;
+  if (a.count_ > 0 && b.count_ > 0) out.toward_ = wa * a.toward_ + (1 - wa) * b.toward_;
   out.keep(points, count, 0);
   return out;
 }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+
+#include "models/kinematic.h"
 
 namespace anchord {
 
@@ -10,8 +13,13 @@ namespace anchord {
 struct SeenPart {
   double v = 0;              ///< how much of the density is in view, 0 to 1
   std::uint32_t viewer = 0;  ///< a number of the sensor's own
-  double variance = 0;       ///< of the density, any measure that grows as it spreads; m^2
+  double variance = 0;       ///< of the density, variance_of()
+  /// Into which side of the density the view reaches: of its standard deviations, 1/m.
+  Eigen::Vector3d toward = Eigen::Vector3d::Zero();
 };
+
+/// How wide a density is: its variance of position, the geometric mean over the axes, m^2.
+double variance_of(const Kinematic& density, int dims);
 
 /// Where in a tracked density the object may still be, after one sensor's looks at it. A view cuts
 /// a density; of two views of one sensor the one that holds more of it is taken to hold all that
@@ -46,6 +54,10 @@ class SeenShare {
   /// nothing is learned.
   void find(const SeenPart& part);
 
+  /// A density with the mean and covariance that it has after the looks, if views cut it along
+  /// planes.
+  Kinematic told(const Kinematic& density, int dims) const;
+
   /// Of a mixture of two densities; weights > 0, any sum. Of two sensors' looks those of the
   /// weightier density are kept.
   static SeenShare merge(double weight_a, const SeenShare& a, double weight_b, const SeenShare& b);
@@ -60,6 +72,7 @@ class SeenShare {
   double at(double v) const;
   /// What is left of the difference that looks made, now that the density has that variance.
   double kept(double variance) const;
+  void remember(const SeenPart& part);
   /// Makes v one of the points. Where there is no room for so many, others go.
   std::size_t point_at(double v);
   template <std::size_t Most>
@@ -67,7 +80,8 @@ class SeenShare {
 
   std::uint32_t viewer_ = 0;
   std::uint32_t count_ = 0;
-  double variance_ = 0;                ///< at the last look
+  double variance_ = 0;  ///< at the last look
+  Eigen::Vector3d toward_ = Eigen::Vector3d::Zero();
   std::array<Point, kMost> points_{};  ///< ascending in v, all in (0, 1)
 };
 

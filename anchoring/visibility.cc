@@ -1,9 +1,9 @@
 #include "anchoring/visibility.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "geometry/standard_normal.h"
@@ -57,6 +57,27 @@ Look look_at(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
 /// What a miss may move at the most without being told: of what a version needs to be kept. The
 /// same part of a density that moves so little is not missed twice, so that it does not add up.
 constexpr double kHardly = 0.025;
+
+/// A point about the mean of a density, in white coordinates, and how much it counts.
+struct Probe {
+  Eigen::Vector3d white;
+  double weight;
+};
+
+/// Around the density in `dims` dimensions, near it and further out.
+std::vector<Probe> probes(int dims) {
+  std::vector<Probe> out;
+  constexpr int kAround = 8;
+  const int levels = dims == 3 ? 1 : 0;
+  for (const double radius : {1.0, 2.3})
+    for (int level = -levels; level <= levels; ++level)
+      for (int i = 0; i < kAround; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kAround;
+        const Eigen::Vector3d at(std::cos(angle), std::sin(angle), level);
+        out.push_back({radius * at.normalized(), std::exp(-radius * radius / 2)});
+      }
+  return out;
+}
 
 double sum(const Look& look) {
   double shares = 0;
@@ -138,6 +159,22 @@ bool Visibility::out_of_view(const Kinematic& density) const {
   return false;
 }
 
+SeenPart Visibility::aimed(SeenPart part, const Kinematic& kinematic) const {
+  static const std::vector<Probe> kFlat = probes(2), kSolid = probes(3);
+  if (!SeenShare::cuts(part.v)) return part;
+  const Eigen::Matrix3d factor = upper_factor<3>(kinematic.pp);
+  Eigen::Vector3d inward = Eigen::Vector3d::Zero();
+  for (const Probe& probe : background_->dims == 3 ? kSolid : kFlat) {
+    const Eigen::Vector3d at = kinematic.position + factor * probe.white;
+    const bool seen = view_.contains(at) && !(eye_ && background_->walls.hide(*eye_, at));
+    inward += (seen ? probe.weight : -probe.weight) * probe.white;
+  }
+  const double length = inward.norm();
+  if (length > 1e-9)  // else it does not reach in from one side
+    part.toward = factor.transpose().triangularView<Eigen::Lower>().solve(inward / length);
+  return part;
+}
+
 SeenPart Visibility::part(const Kinematic& kinematic, double p, const Occlusion& occlusion,
                           std::uint64_t birth) const {
   if (out_of_view(kinematic)) return {};
@@ -146,10 +183,7 @@ SeenPart Visibility::part(const Kinematic& kinematic, double p, const Occlusion&
   if (mass > 0 && eye_) mass *= clear_of_walls(density);
   if (mass > 0 && !occlusion.none()) mass *= occlusion.clear(density, birth);
   SeenPart part{std::min(mass, 1.0), viewer_};
-  if (SeenShare::cuts(part.v))
-    part.variance = background_->dims == 3
-                        ? std::cbrt(kinematic.pp.determinant())
-                        : std::sqrt(kinematic.pp.topLeftCorner<2, 2>().determinant());
+  if (SeenShare::cuts(part.v)) part.variance = variance_of(kinematic, background_->dims);
   return part;
 }
 
@@ -157,7 +191,8 @@ void Visibility::find(Leaf& leaf, const Occlusion& occlusion, std::uint64_t birt
   for (ModelState& state : leaf.models)
     if (const auto* kinematic = std::get_if<Kinematic>(&state.density);
         kinematic && state.weight > 0)
-      state.seen.find(part(*kinematic, leaf.existence * state.weight, occlusion, birth));
+      state.seen.find(
+          aimed(part(*kinematic, leaf.existence * state.weight, occlusion, birth), *kinematic));
 }
 
 LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_detect,

@@ -28,6 +28,9 @@ class Visibility {
   /// there the object is. `birth` is its anchor.
   void find(Leaf& leaf, const Occlusion& occlusion, std::uint64_t birth) const;
 
+  /// What is in view of a density, with SeenPart::toward.
+  SeenPart aimed(SeenPart part, const Kinematic& density) const;
+
   /// Per cell of a footprint the share in view; the footprint is one of the Background's. Objects
   /// hide nothing of it.
   const std::vector<double>& of(const Footprint& footprint) const;

@@ -10,6 +10,7 @@
 #include "anchoring/world.h"
 #include "tests/anchoring/enumeration.h"
 #include "tests/anchoring/random_scene.h"
+#include "tests/anchoring/small_world.h"
 
 namespace anchord {
 namespace {
@@ -58,7 +59,7 @@ void expect_equal(const World& world, const EnumeratedBelief& expected,
   const Utime now = world.belief()->utime;
   std::map<ObjectKey, ObjectBelief> believed;
   const auto keys = keys_by_birth(frames);
-  for (auto& object : read_objects(*world.belief(), now, 0, background))
+  for (auto& object : anchors_by_name(world))
     believed.emplace(keys.at(object.anchor->birth), object);
   const int dims = background.dims;
   for (const auto& [key, truth] : expected.objects) {

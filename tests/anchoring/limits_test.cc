@@ -32,10 +32,10 @@ struct Loss {
 Loss loss_of(const enumeration::Scene& scene, const Limits& limits) {
   const World exact = folded(scene, kNoLimits), limited = folded(scene, limits);
   std::map<std::uint64_t, ObjectBelief> kept;
-  for (auto& object : objects(limited)) kept.emplace(object.anchor->birth, object);
+  for (auto& object : anchors_by_name(limited)) kept.emplace(object.anchor->birth, object);
   Loss loss;
   for (const auto& [birth, object] : kept) loss.expected -= object.p;
-  for (const auto& truth : objects(exact)) {
+  for (const auto& truth : anchors_by_name(exact)) {
     const auto found = kept.find(truth.anchor->birth);
     loss.expected += truth.p;
     loss.p = std::max(loss.p, std::abs(truth.p - (found == kept.end() ? 0 : found->second.p)));

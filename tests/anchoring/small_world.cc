@@ -111,6 +111,27 @@ std::string everything(const World& world) {
   return world_line(*world.belief(), *world.background(), options).dump();
 }
 
+std::vector<ObjectBelief> anchors_by_name(const World& world) {
+  std::vector<ObjectBelief> out;
+  for (const auto& cluster : world.belief()->clusters)
+    for (std::size_t a = 0; a < cluster->anchors.size(); ++a) {
+      ObjectBelief& object = out.emplace_back();
+      object.anchor = cluster->anchors[a].anchor;
+      for (const auto& leaf : cluster->anchors[a].leaves) {
+        Leaf now = *leaf;
+        if (now.utime < world.belief()->utime)
+          predict(now, world.belief()->utime, *world.background());
+        object.versions.push_back({0, as_real(std::move(now), *world.background())});
+      }
+      for (const Hypothesis& h : cluster->hypotheses)
+        if (h.leaf[a] != Hypothesis::kNoLeaf)
+          object.versions[h.leaf[a]].probability += std::exp(h.log_weight);
+      for (const auto& version : object.versions)
+        object.p += version.probability * version.leaf.existence;
+    }
+  return out;
+}
+
 std::vector<ObjectBelief> objects(const World& world) {
   return read_objects(*world.belief(), world.belief()->utime, 0, *world.background());
 }

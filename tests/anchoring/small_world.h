@@ -52,6 +52,9 @@ void apply(World& world, const std::vector<Frame>& frames);
 /// All that there is to read in a world's belief, as text: equal beliefs give equal bytes.
 std::string everything(const World& world);
 
+/// Every anchor now as its own name has it, densities as the filters hold them.
+std::vector<ObjectBelief> anchors_by_name(const World& world);
+
 /// The objects of p > 0 now, in order of birth.
 std::vector<ObjectBelief> objects(const World& world);
 std::vector<std::string> ids(const World& world);

@@ -101,7 +101,10 @@ TEST(Roi, WhereASensorLookedInVainIsLeftOut) {
   EXPECT_GE(covered(all[0], regions), 0.95 - kSampling);
   double area = 0;
   for (const RegionOfInterest& roi : regions) {
-    EXPECT_EQ(roi.kind, RegionOfInterest::Kind::kPrism);
+    if (roi.kind == RegionOfInterest::Kind::kEllipsoid) {  // what moved on by itself
+      EXPECT_GT(roi.center[0], 9);
+      continue;
+    }
     for (const auto& corner : roi.polygon) EXPECT_GE(corner[0], 9 - 1e-9);
     Region region;
     for (const auto& corner : roi.polygon) region.polygon.emplace_back(corner[0], corner[1]);
