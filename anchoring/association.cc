@@ -69,8 +69,7 @@ class Children {
       if (given != kMiss) child.recent.push_back(frame_number_ << 16 | given);
     }
     if (z == kMiss) {
-      give_nothing(child, parent.shown, visibility_, frame_.sensor->detection_probability,
-                   background_);
+      give_nothing(child, parent.shown, visibility_, *frame_.sensor, background_);
     } else {
       give(child, frame_.detections[detections_[z]], parent.shown, *frame_.sensor, background_);
       visibility_.find(child, occlusion_, birth);

@@ -130,6 +130,12 @@ Background::Background(Knowledge k)
     footprints_.push_back(std::make_shared<Footprint>(Footprint::of(place.region, grid, dims)));
   compare_places();
   number_places();
+  const auto falls = [](const Sensor& sensor) {
+    return std::any_of(sensor.detection_probability.begin(), sensor.detection_probability.end(),
+                       [](const DetectionProbability& p) { return p.per_m != 0; });
+  };
+  ranged = falls(knowledge.default_sensor) ||
+           std::any_of(knowledge.sensors.begin(), knowledge.sensors.end(), falls);
   for (const ObjectClass& c : knowledge.classes) {
     dynamics.push_back(dynamics_of(c));
     largest_extent = std::max(largest_extent, c.extent.norm());

@@ -43,6 +43,7 @@ struct Background {
   double largest_extent = 0;  ///< of any class, a diagonal, m; above 0: objects hide each other
   bool shares = false;        ///< some class has a model whose objects share detections
   bool has_phantoms = false;  ///< any class is one
+  bool ranged = false;        ///< some sensor's p_D depends on the distance
   std::vector<std::shared_ptr<const ArrivalModel>> arrivals;  ///< per class
   /// Per class; empty where no class has any.
   std::vector<std::shared_ptr<const MovingArrivals>> moving_arrivals;

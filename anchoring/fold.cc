@@ -24,8 +24,7 @@ double log_gain(const PredictedLeaf& predicted, const Anchor& anchor, const MapD
   const bool named = !z.object.empty() && anchor.is_called(z.object);
   const Leaf& leaf = predicted.leaf;
   if (leaf.existence <= 0) return kLogZero;
-  const double log_g =
-      log_likelihood(leaf, z, predicted.shown, sensor.detection_probability, !named, background);
+  const double log_g = log_likelihood(leaf, z, predicted.shown, !named, background);
   if (log_g == kLogZero) return kLogZero;
   double gain = std::log(leaf.existence) - predicted.log_miss - origin.log_weight + log_g;
   if (!z.object.empty() && !named) gain += std::log(sensor.identity_doubt);
@@ -46,8 +45,8 @@ std::optional<Kinematic> met_by(const MapDetection& z, const ScratchVector<doubl
       background.object_class(static_cast<int>(c)).models[background.dynamics[c].first_detectable];
   const Kinematic still =
       kinematic_at(z.position, model.initial_velocity_variance, background.dims);
-  Kinematic met = moving[c].found_at(
-      z.position, at_rest[c] / (sensor.detection_probability[c] * z.class_ratio[c]), still);
+  Kinematic met =
+      moving[c].found_at(z.position, at_rest[c] / (z.p_detected[c] * z.class_ratio[c]), still);
   keep_above(met, sensor.pose_floor, background.dims);
   return met;
 }
@@ -66,12 +65,11 @@ ScratchVector<Origin> origins(const Belief& belief, const MapFrame& frame,
     Origin origin;
     const int cell = background.cell_of(z.position.mean);
     for (int c = 0; c < background.classes(); ++c)
-      origin.terms.push_back(frame.sensor->detection_probability[c] *
-                             belief.undetected[c].at(cell, time) * z.class_ratio[c]);
+      origin.terms.push_back(z.p_detected[c] * belief.undetected[c].at(cell, time) *
+                             z.class_ratio[c]);
     const ScratchVector<double> at_rest = moving.empty() ? ScratchVector<double>{} : origin.terms;
     for (std::size_t c = 0; c < moving.size(); ++c)
-      origin.terms[c] += frame.sensor->detection_probability[c] * moving[c].intensity(z.position) *
-                         z.class_ratio[c];
+      origin.terms[c] += z.p_detected[c] * moving[c].intensity(z.position) * z.class_ratio[c];
     for (double term : origin.terms) origin.expected += term;
     const double clutter = std::exp(z.log_clutter) + repeat_density(frame, i, background.dims);
     origin.existence = origin.expected / (clutter + origin.expected);
@@ -96,8 +94,8 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
       PredictedLeaf& predicted = out.leaves[a].emplace_back();
       predicted.leaf = *leaf;
       predict(predicted.leaf, frame.utime, background);
-      predicted.shown = visibility.of(predicted.leaf, frame.sensor->detection_probability,
-                                      occlusion, cluster->anchors[a].anchor->birth);
+      predicted.shown = visibility.of(predicted.leaf, *frame.sensor, occlusion,
+                                      cluster->anchors[a].anchor->birth);
       if (background.shares) hide(predicted.leaf, frame, background, predicted.shown);
       predicted.log_miss = std::log1p(-predicted.leaf.existence * predicted.shown.q());
       out.shown = out.shown || predicted.shown.q() > 0;
@@ -173,14 +171,17 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   belief.clusters.exchange(gone, made, background);
   const double time = belief.seconds(frame.utime);
   for (int c = 0; c < background.classes(); ++c) {
-    const double p = frame.sensor->detection_probability[c];
-    log_evidence -=
-        p * background.cell_volume() * belief.undetected[c].miss(visibility.look(), p, time);
+    const DetectionProbability& p = frame.sensor->detection_probability[c];
+    UndetectedIntensity& lambda = belief.undetected[c];
+    const double detected = p.per_m == 0 ? p.near * lambda.miss(visibility.look(), p.near, time)
+                                         : lambda.miss(visibility.look(p), 1, time);
+    log_evidence -= detected * background.cell_volume();
   }
   for (std::size_t c = 0; c < belief.moving.size() && !frame.view.sees_nothing(); ++c) {
-    const double p = frame.sensor->detection_probability[c];
+    const DetectionProbability& p = frame.sensor->detection_probability[c];
     belief.moving[c].advance(time);
-    log_evidence -= p * belief.moving[c].miss(frame.view, p);
+    log_evidence -= belief.moving[c].miss(
+        frame.view, [&](const Eigen::Vector3d& at) { return p.at(visibility.range(at)); });
   }
   belief.log_evidence += log_evidence;
 }

@@ -227,8 +227,7 @@ double class_ratio(const Leaf& leaf, const MapDetection& z, int c, const Backgro
 }
 
 double log_likelihood(const Leaf& leaf, const MapDetection& z, const LeafVisibility& shown,
-                      const std::vector<double>& detection_probability, bool gated,
-                      const Background& background) {
+                      bool gated, const Background& background) {
   const double gate = background.knowledge.limits.gate_probability;
   gated = gated && gate < 1;
   const auto& models = background.object_class(leaf.model_class).models;
@@ -257,8 +256,8 @@ double log_likelihood(const Leaf& leaf, const MapDetection& z, const LeafVisibil
   if (!in_gate || (log_alone == kLogZero && log_shared == kLogZero)) return kLogZero;
   double by_class = 0;
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
-    by_class += leaf.classes[c] * detection_probability[c] *
-                class_ratio(leaf, z, static_cast<int>(c), background);
+    by_class +=
+        leaf.classes[c] * z.p_detected[c] * class_ratio(leaf, z, static_cast<int>(c), background);
   double log_g = std::log(by_class) + log_alone;
   for (const auto& evidence : z.attributes)
     log_g += log_attribute_ratio(leaf, evidence, background);

@@ -55,12 +55,24 @@ struct Leaf {
 
 /// What a frame's view means for a leaf, as predicted to it.
 struct LeafVisibility {
+  struct Ranged {
+    double range;  ///< from the sensor to the density, m
+    double p;      ///< sum of b(c) p_D,c there
+  };
   double v = 0;                                       ///< sum of w_m v_m
-  double p = 0;                                       ///< sum of b(c) p_D,c
+  double p = 0;                                       ///< sum of b(c) p_D,c; ranged: over the view
   boost::container::small_vector<SeenPart, 2> parts;  ///< of tracked models' densities
   boost::container::small_vector<double, 2> v_model;  ///< v_m; 0 for an undetectable model
   boost::container::small_vector<double, 2> factor;   ///< of each density in view, by earlier looks
-  double q() const { return v * p; }                  ///< probability of being detected
+  /// Per model, where the p_D of some sensor depends on the distance; else empty.
+  boost::container::small_vector<Ranged, 2> ranged;
+
+  double q() const { return v * p; }  ///< probability of being detected
+  double p_of(std::size_t model) const { return ranged.empty() ? p : ranged[model].p; }
+  /// What p is where it is ranged, by the models' shares of what is in view.
+  void average(const Leaf& leaf);
+  /// The probability that the leaf, if of class c, is detected; v p_D,c or the like.
+  double q_of(int c, const Leaf& leaf, const Sensor& sensor) const;
 };
 
 /// A density's moments as a behaviour model of another kind holds them: constant_position has no
@@ -81,12 +93,11 @@ void predict(Leaf& leaf, Utime utime, const Background& background);
 /// before.
 double class_ratio(const Leaf& leaf, const MapDetection& z, int c, const Background& background);
 
-/// ln g(z | leaf) of a predicted leaf, not yet counting r; kLogZero where it cannot be.
-/// `detection_probability` is per class. With `gated`, also kLogZero where z lies outside the gates
-/// of all behaviour models that carry more weight than the gate leaves out.
+/// ln g(z | leaf) of a predicted leaf, not yet counting r; kLogZero where it cannot be. With
+/// `gated`, also kLogZero where z lies outside the gates of all behaviour models that carry more
+/// weight than the gate leaves out.
 double log_likelihood(const Leaf& leaf, const MapDetection& z, const LeafVisibility& shown,
-                      const std::vector<double>& detection_probability, bool gated,
-                      const Background& background);
+                      bool gated, const Background& background);
 
 /// ln of what z's attributes other than the class are worth, the product of its L_A.
 double log_attribute_ratio(const Leaf& leaf, const MapDetection& z, const Background& background);
@@ -97,7 +108,7 @@ void give(Leaf& leaf, const MapDetection& z, const LeafVisibility& shown, const 
 
 /// A predicted leaf that is given nothing, where `shown` is what the frame's view shows of it.
 void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& visibility,
-                  const std::vector<double>& detection_probability, const Background& background);
+                  const Sensor& sensor, const Background& background);
 
 /// The leaf of a new anchor; `terms` are p_D,c lambda_c(z) l(z|c) per class, `existence` their sum
 /// over that and clutter. Its position is that of z, at rest; or, if it arrived on the move, what

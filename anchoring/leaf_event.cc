@@ -122,7 +122,7 @@ void lose(Leaf& leaf, const Sensor& sensor, LookedAt& looked_at, const Backgroun
   if (open <= 0) return;
   double p = 0;
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
-    p += leaf.classes[c] * sensor.detection_probability[c];
+    p += leaf.classes[c] * sensor.detection_probability[c].near;
 
   double moved = 0;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {

@@ -133,8 +133,7 @@ void give(Leaf& leaf, const MapDetection& z, const LeafVisibility& shown, const 
   leaf.last_seen = leaf.utime;
   const double own = update_models(leaf, z, shown, sensor, background);
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
-    leaf.classes[c] *=
-        sensor.detection_probability[c] * class_ratio(leaf, z, static_cast<int>(c), background);
+    leaf.classes[c] *= z.p_detected[c] * class_ratio(leaf, z, static_cast<int>(c), background);
   normalise(leaf.classes, background);
   if (z.score) leaf.scores.take(*z.score, leaf.utime);
   learn_attributes(leaf, z, background, own);
@@ -142,18 +141,36 @@ void give(Leaf& leaf, const MapDetection& z, const LeafVisibility& shown, const 
   follow_class(leaf, background);
 }
 
+void LeafVisibility::average(const Leaf& leaf) {
+  if (ranged.empty() || v <= 0) return;
+  double sum = 0;
+  for (std::size_t m = 0; m < ranged.size(); ++m)
+    sum += leaf.models[m].weight * v_model[m] * ranged[m].p;
+  p = sum / v;
+}
+
+double LeafVisibility::q_of(int c, const Leaf& leaf, const Sensor& sensor) const {
+  const DetectionProbability& detected = sensor.detection_probability[c];
+  if (ranged.empty() || detected.per_m == 0) return v * detected.near;
+  double sum = 0;
+  for (std::size_t m = 0; m < ranged.size(); ++m)
+    if (v_model[m] > 0) sum += leaf.models[m].weight * v_model[m] * detected.at(ranged[m].range);
+  return sum;
+}
+
 void give_nothing(Leaf& leaf, const LeafVisibility& shown, const Visibility& visibility,
-                  const std::vector<double>& detection_probability, const Background& background) {
-  const double q = shown.q(), p = shown.p, v = shown.v;
+                  const Sensor& sensor, const Background& background) {
+  const double q = shown.q();
   if (q <= 0) return;
   leaf.existence *= (1 - q) / (1 - leaf.existence * q);
   for (std::size_t c = 0; c < leaf.classes.size(); ++c)
-    leaf.classes[c] *= (1 - detection_probability[c] * v) / (1 - q);
+    leaf.classes[c] *= (1 - shown.q_of(static_cast<int>(c), leaf, sensor)) / (1 - q);
   normalise(leaf.classes, background);
   double sum = 0;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     ModelState& state = leaf.models[m];
-    state.weight *= (1 - p * shown.v_model[m]) / (1 - p * v);
+    const double p = shown.p_of(m);
+    state.weight *= (1 - p * shown.v_model[m]) / (1 - q);
     sum += state.weight;
     if (shown.v_model[m] <= 0) continue;
     if (auto* somewhere = std::get_if<Somewhere>(&state.density))

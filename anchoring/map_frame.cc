@@ -168,6 +168,8 @@ Result<MapDetection> place_detection(const Detection& from, const Frame& frame,
     const auto& [x, y, z] = frame.pose->position;
     to.range = (to.position.mean - Eigen::Vector3d(x, y, background.dims == 3 ? z : 0)).norm();
   }
+  for (const DetectionProbability& p : sensor.detection_probability)
+    to.p_detected.push_back(p.at(to.range));
   to.class_ratio.assign(background.classes(), 1.0);
   if (auto read = read_attributes(from, at, background.knowledge, sensor, to); !read)
     return read.error();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,6 +30,8 @@ struct MapDetection {
   /// l(z|c) per class; 1 if no class was reported. A phantom's with what the score says of a thing
   /// that is reported for the first time.
   std::vector<double> class_ratio;
+  /// p_D,c at its distance, per class.
+  boost::container::small_vector<double, 8> p_detected;
   int label = -1;    ///< the class that is reported as the most probable one; -1: none
   double range = 0;  ///< m, from the sensor; 0 in a frame without a pose
   std::optional<double> log_odds;      ///< of the score, as the sensor's calibration has it

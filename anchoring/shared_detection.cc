@@ -144,6 +144,7 @@ void hide(const Leaf& leaf, const MapFrame& frame, const Background& background,
     v -= hidden;
     shown.v -= leaf.models[m].weight * hidden;
   }
+  shown.average(leaf);
 }
 
 int draw_to_hosts(Leaf& leaf, const MapFrame& frame, const LeafVisibility& shown,
@@ -156,7 +157,7 @@ int draw_to_hosts(Leaf& leaf, const MapFrame& frame, const LeafVisibility& shown
     const Hosts hosts = hosts_of(leaf, density, models[m], frame, background);
     const double in_view = shown.v_model[m] / (1 - hosts.total);
     // Out of view, or missed like any other.
-    double weight = 1 - in_view * hosts.total - shown.p * shown.v_model[m];
+    double weight = 1 - in_view * hosts.total - shown.p_of(m) * shown.v_model[m];
     const Kinematic before = density;
     for (std::size_t z = 0; z < hosts.hidden.size(); ++z) {
       const double hidden = in_view * hosts.hidden[z];

@@ -92,13 +92,15 @@ Visibility::Visibility(const MapFrame& frame, const Background& background)
     : viewer_(frame.viewer),
       view_(frame.view),
       eye_(background.walls.none() ? std::nullopt : frame.eye),
+      from_(background.ranged ? frame.eye : std::nullopt),
       background_(&background),
       look_(look_at(view_, eye_, background)),
       volume_(sum(look_) * background.cell_volume()),
       hardly_(kHardly * background.knowledge.limits.min_existence) {}
 
 bool Visibility::same_for(const MapFrame& frame) const {
-  return view_ == frame.view && (background_->walls.none() || eye_ == frame.eye);
+  return view_ == frame.view && (background_->walls.none() || eye_ == frame.eye) &&
+         (!background_->ranged || from_ == frame.eye);
 }
 
 const std::vector<double>& Visibility::of(const Footprint& footprint) const {
@@ -195,15 +197,53 @@ void Visibility::find(Leaf& leaf, const Occlusion& occlusion, std::uint64_t birt
           aimed(part(*kinematic, leaf.existence * state.weight, occlusion, birth), *kinematic));
 }
 
-LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_detect,
-                              const Occlusion& occlusion, std::uint64_t birth) const {
+const Look& Visibility::look(const DetectionProbability& p) const {
+  const auto [at, fresh] = looks_.try_emplace({p.near, p.per_m}, look_);
+  if (!fresh) return at->second;
+  const Tiling& tiling = *background_->tiling;
+  for (Look::Tile& tile : at->second.tiles)
+    for (int i = 0; i < Tiling::kCells; ++i)
+      if (double& share = tile.share[i]; share > 0)
+        share *= p.at(range_of(tiling.grid, tiling.cell(tile.tile, i)));
+  return at->second;
+}
+
+double Visibility::range_of(const Grid& grid, int cell) const {
+  if (!from_) return 0;
+  const Eigen::Vector3d low = grid.corner_min(cell), high = grid.corner_max(cell);
+  Eigen::Vector3d centre = 0.5 * (low + high);
+  centre.z() = background_->dims == 3 ? std::clamp(from_->z(), low.z(), high.z()) : 0;
+  return range(centre);
+}
+
+/// Of a place, how far what is in view of it is on average.
+double Visibility::range(const Somewhere& somewhere) const {
+  const Footprint& footprint = *somewhere.footprint();
+  const auto [at, fresh] = ranges_.try_emplace(&footprint, 0);
+  if (!fresh || !from_) return at->second;
+  const std::vector<double>& visible = of(footprint);
+  double sum = 0, seen = 0;
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    const double area = visible[i] * footprint.share[i];
+    if (area <= 0) continue;
+    sum += area * range_of(footprint.grid, footprint.cells[i]);
+    seen += area;
+  }
+  if (seen > 0) at->second = sum / seen;
+  return at->second;
+}
+
+LeafVisibility Visibility::of(const Leaf& leaf, const Sensor& sensor, const Occlusion& occlusion,
+                              std::uint64_t birth) const {
   LeafVisibility shown;
-  for (std::size_t c = 0; c < leaf.classes.size(); ++c) shown.p += leaf.classes[c] * p_detect[c];
+  const auto& p = sensor.detection_probability;
+  for (std::size_t c = 0; c < leaf.classes.size(); ++c) shown.p += leaf.classes[c] * p[c].near;
   shown.parts.resize(leaf.models.size());
   shown.v_model.assign(leaf.models.size(), 0.0);
   shown.factor.assign(leaf.models.size(), 1.0);
   if (view_.sees_nothing() || leaf.held) return shown;
   const auto& models = background_->object_class(leaf.model_class).models;
+  if (from_) shown.ranged.assign(leaf.models.size(), {});
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     const ModelState& state = leaf.models[m];
     if (!models[m].detectable || state.weight <= 0) continue;
@@ -220,6 +260,17 @@ LeafVisibility Visibility::of(const Leaf& leaf, const std::vector<double>& p_det
     shown.v += state.weight * v;
   }
   shown.v = std::min(shown.v, 1.0);
+  if (shown.ranged.empty()) return shown;
+  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
+    if (shown.v_model[m] <= 0) continue;
+    const auto* kinematic = std::get_if<Kinematic>(&leaf.models[m].density);
+    const double away =
+        kinematic ? range(kinematic->position) : range(std::get<Somewhere>(leaf.models[m].density));
+    shown.ranged[m] = {away, 0};
+    for (std::size_t c = 0; c < leaf.classes.size(); ++c)
+      shown.ranged[m].p += leaf.classes[c] * p[c].at(away);
+  }
+  shown.average(leaf);
   return shown;
 }
 

@@ -21,8 +21,8 @@ class Visibility {
 
   /// What the view means for a predicted leaf of the anchor `birth`, which other objects may hide
   /// in this frame.
-  LeafVisibility of(const Leaf& leaf, const std::vector<double>& detection_probability,
-                    const Occlusion& occlusion, std::uint64_t birth) const;
+  LeafVisibility of(const Leaf& leaf, const Sensor& sensor, const Occlusion& occlusion,
+                    std::uint64_t birth) const;
 
   /// Notes of the densities of a leaf that was just given a detection how much of them is in view:
   /// there the object is. `birth` is its anchor.
@@ -37,11 +37,19 @@ class Visibility {
 
   /// Per cell of the world's grid the share in view, likewise.
   const Look& look() const { return look_; }
+  /// The same, times p at the cell: there its distance is that in the plane, and to the column's
+  /// nearest height.
+  const Look& look(const DetectionProbability& p) const;
+
+  /// How far a point is from the sensor, m; 0 where that did not say where it is.
+  double range(const Eigen::Vector3d& point) const { return from_ ? (point - *from_).norm() : 0; }
 
   /// How much of the world is in view, m^dims.
   double volume() const { return volume_; }
 
  private:
+  double range_of(const Grid& grid, int cell) const;
+  double range(const Somewhere& somewhere) const;
   double exactness(double p) const;
   /// How much of a density is in view and not hidden; `p`: the probability that it is there.
   SeenPart part(const Kinematic& density, double p, const Occlusion& occlusion,
@@ -53,12 +61,16 @@ class Visibility {
 
   std::uint32_t viewer_;  ///< MapFrame::viewer of that sensor
   MapView view_;
-  std::optional<Eigen::Vector3d> eye_;  ///< none where there are no walls
+  std::optional<Eigen::Vector3d> eye_;   ///< none where there are no walls
+  std::optional<Eigen::Vector3d> from_;  ///< the eye, none where no p_D depends on the distance
   const Background* background_;
   Look look_;
   double volume_;
   double hardly_;  ///< what is there to be seen with less probability is not missed
-  mutable std::map<const Footprint*, std::vector<double>> footprints_;  // filled when asked for
+  // Filled when asked for:
+  mutable std::map<const Footprint*, std::vector<double>> footprints_;
+  mutable std::map<const Footprint*, double> ranges_;
+  mutable std::map<std::pair<double, double>, Look> looks_;  // by near, per_m
 };
 
 }  // namespace anchord

@@ -23,11 +23,7 @@ struct Meeting {
   MapFrame frame = place_in_map(crowd.frames[1], background).value();
   Leaf leaf =
       first_leaf(frame.detections[0], std::array{0.05}, 0.9, crowd.frames[0].utime, background);
-  const std::vector<double>& detection_probability() const {
-    return frame.sensor->detection_probability;
-  }
-  LeafVisibility shown =
-      Visibility(frame, background).of(leaf, detection_probability(), Occlusion(), 0);
+  LeafVisibility shown = Visibility(frame, background).of(leaf, *frame.sensor, Occlusion(), 0);
 };
 
 void BM_Fit(benchmark::State& state) {
@@ -42,8 +38,7 @@ void BM_LogLikelihood(benchmark::State& state) {
   const Meeting meeting;
   for (auto _ : state)
     benchmark::DoNotOptimize(log_likelihood(meeting.leaf, meeting.frame.detections[0],
-                                            meeting.shown, meeting.detection_probability(), true,
-                                            meeting.background));
+                                            meeting.shown, true, meeting.background));
 }
 BENCHMARK(BM_LogLikelihood);
 

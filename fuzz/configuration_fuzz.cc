@@ -51,9 +51,10 @@ void require_promises(const anchord::Knowledge& knowledge) {
     require(sensor.clutter_density > 0, "there is clutter");
     require(sensor.detection_probability.size() == knowledge.classes.size(),
             "every class has a detection probability");
-    for (const double p : sensor.detection_probability) {
-      require(p >= 0 && p < 1, "detection is never certain");
-    }
+    for (const anchord::DetectionProbability& p : sensor.detection_probability)
+      for (const double range : {0.0, 1.0, 1e8}) {
+        require(p.at(range) >= 0 && p.at(range) < 1, "detection is never certain");
+      }
     require(sensor.prior.size() == knowledge.attributes.size(), "every attribute has a prior");
     for (const auto& prior : sensor.prior) require_distribution(prior, "priors sum to 1");
     for (const auto& confusion : sensor.confusion) {

@@ -8,6 +8,7 @@ namespace anchord {
 namespace {
 
 constexpr std::size_t kMostTransitions = 400, kMostArrivals = 1000;
+constexpr double kMostPerMetre = 1000;  // a step, for all purposes
 
 /// The class that `classes.default` starts from; documented at read_configuration().
 ObjectClass built_in_class() {
@@ -153,7 +154,10 @@ ObjectClass read_class(const JsonValue& value, ObjectClass base, const Knowledge
     base.transitions = read_transitions(*transitions, base.models);
   }
   if (const auto changes = value.find("changes")) base.changes = read_changes(*changes, knowledge);
-  value.read("detection_probability", base.detection_probability, kBelowCertain);
+  if (const auto detected = value.find("detection_probability")) {
+    base.detection_probability =
+        read_detection_probability(*detected).value_or(base.detection_probability);
+  }
   value.read("arrival_rate", base.arrival_rate, kNotNegative);
   value.read("departure_rate", base.departure_rate, kRate);
   value.read("undetected_intensity", base.undetected_intensity, kNotNegative);
@@ -188,6 +192,20 @@ void read_look(const JsonValue& value, std::vector<ObjectClass>& classes, std::s
 }
 
 }  // namespace
+
+std::optional<DetectionProbability> read_detection_probability(const JsonValue& value) {
+  if (value.json().is_number()) return value.number(kBelowCertain);
+  const auto& pair = value.json();
+  if (pair.is_array() && pair.size() == 2 && pair[0].is_number() && pair[1].is_number()) {
+    const double near = pair[0], per_m = pair[1];
+    if (near > 0 && near < 1 && std::abs(per_m) <= kMostPerMetre)
+      return DetectionProbability{near, per_m};
+  }
+  value.mistake(
+      "must be a number, or [p, c] with p above 0 and below 1 and c from -1000 to 1000: at r m it "
+      "is p' with logit p' = logit p + c r");
+  return std::nullopt;
+}
 
 void read_classes(const JsonValue& root, Knowledge& knowledge) {
   std::vector<std::string> symbols;

@@ -59,11 +59,11 @@ class [[nodiscard]] Configuration {
 /// - a class: each key by itself from `classes.default`, then from the built-in class: a
 ///   constant_velocity model with `acceleration_psd` 0.1 m^2/s^3 and `initial_velocity_variance`
 ///   0.01 (m/s)^2, beside it `somewhere` in the world at `rate` 0.001 /s;
-///   `detection_probability` 0.9; `undetected_intensity` 0.01 per m^d, `arrival_rate` 1e-4 per
-///   m^d and s, `departure_rate` 0; no `arrivals`, no `extent`, no `changes`, `phantom` false
-///   (not to be set in `classes.default`; one class must be none), `looks_like` anything (a class
-///   that is no phantom, for one that is). Changes are by attribute: of a
-///   scalar {"drift": unit^2/s}; of a categorical one {"redraw": 1/s}, or
+///   `detection_probability` 0.9 (or [p, c]: logit p + c range); `undetected_intensity` 0.01 per
+///   m^d, `arrival_rate` 1e-4 per m^d and s, `departure_rate` 0; no `arrivals`, no `extent`, no
+///   `changes`, `phantom` false (not to be set in `classes.default`; one class must be none),
+///   `looks_like` anything (a class that is no phantom, for one that is). Changes are by attribute:
+///   of a scalar {"drift": unit^2/s}; of a categorical one {"redraw": 1/s}, or
 ///   {"transitions": [{"from", "to", "rate"}]} between at most kMostChanging of its symbols.
 ///   `transitions` count the models of the class that has them; a class with `models` of its own
 ///   that those of `classes.default` do not fit must have its own.
@@ -74,14 +74,14 @@ class [[nodiscard]] Configuration {
 /// - a sensor: each key by itself from `sensors.default`, then `clutter_density` 1e-3 per m^d, no
 ///   `view` and no `noise`, `score_calibration` [0, 1, 0] (scores count as logit p' = a + b logit p
 ///   + c range), `real_share` 0.5, `score_memory` {`share` 0, `seconds` 1}, `pose_floor` 0,
-///   `identity_doubt` 0.01. Its `detection_probability` (a number, or an object of them by class,
-///   in which "default" stands for those not named) goes before that of `sensors.default`, and that
-///   before the class's own. `noise` is a position covariance (row-major, sensor frame), or an
-///   object with `covariance`, that, and `polar`, the variances of range, bearing and elevation.
-///   `prior` and `confusion` are by attribute. A distribution that names only some symbols spreads
-///   what is left evenly over the others, and is normalised; priors are kept above 1e-6. A true
-///   symbol without a row in `confusion` is reported as itself. Where there is a confusion the
-///   prior has no effect.
+///   `identity_doubt` 0.01. Its `detection_probability` (as a class's, or an object of such by
+///   class, in which "default" stands for those not named) goes before that of `sensors.default`,
+///   and that before the class's own. `noise` is a position covariance (row-major, sensor frame),
+///   or an object with `covariance`, that, and `polar`, the variances of range, bearing and
+///   elevation. `prior` and `confusion` are by attribute. A distribution that names only some
+///   symbols spreads what is left evenly over the others, and is normalised; priors are kept above
+///   1e-6. A true symbol without a row in `confusion` is reported as itself. Where there is a
+///   confusion the prior has no effect.
 /// - a sensor's `verification` (none: it is not used for verification tasks): `mount` {"position",
 ///   "orientation"} of the sensor in the robot's base (default: the base itself), `moves_base`
 ///   true, `cost` 0, `dwell` 0 s, `noise` {class: covariance, "default": covariance}, default the

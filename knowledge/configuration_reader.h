@@ -29,6 +29,9 @@ std::vector<BehaviourModel> read_models(const JsonValue& value, const Knowledge&
 /// How the attributes of a class change (the value of `changes`).
 std::vector<AttributeChange> read_changes(const JsonValue& value, const Knowledge& knowledge);
 
+/// A number, or [p, c] for one that depends on the distance.
+std::optional<DetectionProbability> read_detection_probability(const JsonValue& value);
+
 /// A distribution over `symbols` (an object): what it leaves goes evenly to those it does not
 /// name. Normalised.
 std::optional<std::vector<double>> read_distribution(const JsonValue& value,

@@ -1,6 +1,7 @@
 #include "knowledge/knowledge.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace anchord {
 namespace {
@@ -24,6 +25,12 @@ const char* to_string(BehaviourModel::Kind kind) {
       return "somewhere";
   }
   return "";
+}
+
+double DetectionProbability::fallen(double range) const {
+  constexpr double kLeast = 1e-6;  // a belief is never certain of a detection, or of none
+  const double against = (1 - near) / near * std::exp(-per_m * range);
+  return std::clamp(1 / (1 + against), kLeast, 1 - kLeast);
 }
 
 int Attribute::find(std::string_view symbol) const {

@@ -78,6 +78,22 @@ struct AttributeChange {
   double drift = 0;                     ///< scalar: by which the variance grows, unit^2/s
 };
 
+/// p_D, of what is r m from the sensor: logit p_D = logit near + per_m r.
+struct DetectionProbability {
+  double near = 0.9;  ///< 0 to below 1; above 0 where per_m is not 0
+  double per_m = 0;
+
+  DetectionProbability(double everywhere = 0.9) : near(everywhere) {}
+  DetectionProbability(double close, double per_metre) : near(close), per_m(per_metre) {}
+
+  /// Where it depends on the distance at all it is within 1e-6 and 1 - 1e-6.
+  double at(double range) const { return per_m == 0 ? near : fallen(range); }
+  bool operator==(const DetectionProbability&) const = default;
+
+ private:
+  double fallen(double range) const;
+};
+
 struct ObjectClass {
   std::string name;
   bool phantom = false;  ///< what sensors report though it is no object: in no answer
@@ -85,7 +101,7 @@ struct ObjectClass {
   std::vector<BehaviourModel> models;
   std::vector<Transition> transitions;
   std::vector<AttributeChange> changes;  ///< at most one for each attribute but `class`
-  double detection_probability = 0.9;
+  DetectionProbability detection_probability;
   double arrival_rate = 0;  ///< beta_c, uniform part, per m^d and s
   std::vector<Arrival> arrivals;
   double departure_rate = 0;                         ///< mu_c, 1/s
@@ -143,10 +159,10 @@ struct ByLabel {
 
 struct Sensor {
   std::string name;
-  double clutter_density = 1e-3;              ///< kappa, per frame and m^d
-  std::vector<double> clutter_looks;          ///< shares of it that look like each class; or empty
-  std::vector<double> detection_probability;  ///< per class
-  std::optional<View> view;                   ///< sensor frame
+  double clutter_density = 1e-3;      ///< kappa, per frame and m^d
+  std::vector<double> clutter_looks;  ///< shares of it that look like each class; or empty
+  std::vector<DetectionProbability> detection_probability;  ///< per class
+  std::optional<View> view;                                 ///< sensor frame
   std::vector<double> noise;        ///< row-major covariance, d*d numbers; empty: none configured
   std::vector<double> polar_noise;  ///< variances of range, bearing, elevation; empty: none
   /// Per attribute: the prior pi over its symbols (sums to 1, each above 0); uniform unless

@@ -17,7 +17,7 @@ constexpr double kMostProbable = 1.001;  // a sum of printed probabilities may b
 /// A sensor whose detection probabilities are not yet filled up from the classes.
 struct Draft {
   Sensor sensor;
-  std::vector<std::optional<double>> detection_probability;  // per class
+  std::vector<std::optional<DetectionProbability>> detection_probability;  // per class
 };
 
 std::vector<std::string> names(const std::vector<ObjectClass>& classes) {
@@ -47,16 +47,16 @@ bool number_by_class(const JsonValue& value) {
   return is;
 }
 
-void read_detection_probability(const JsonValue& value, const Knowledge& knowledge, Draft& draft) {
+void read_detection_probabilities(const JsonValue& value, const Knowledge& knowledge,
+                                  Draft& draft) {
   auto& all = draft.detection_probability;
-  if (!number_by_class(value)) return;
   read_by_class(
       value, knowledge,
       [&](const JsonValue& rest) {
-        if (const auto p = rest.number(kBelowCertain)) all.assign(all.size(), *p);
+        if (const auto p = read_detection_probability(rest)) all.assign(all.size(), *p);
       },
       [&](std::size_t c, const JsonValue& entry) {
-        if (const auto p = entry.number(kBelowCertain)) all[c] = p;
+        if (const auto p = read_detection_probability(entry)) all[c] = p;
       });
 }
 
@@ -217,7 +217,7 @@ Draft read_sensor(const JsonValue& value, Draft draft, const Knowledge& knowledg
   value.read("identity_doubt", sensor.identity_doubt, kAboveImpossible);
   value.read("double_detection", sensor.double_detection, kProbability);
   if (const auto p = value.find("detection_probability")) {
-    read_detection_probability(*p, knowledge, draft);
+    read_detection_probabilities(*p, knowledge, draft);
   }
   if (const auto view = value.find("view")) sensor.view = read_view(*view, knowledge.dims);
   if (const auto noise = value.find("noise")) read_noise(*noise, knowledge.dims, sensor);

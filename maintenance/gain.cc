@@ -146,10 +146,11 @@ void Forecast::see_track(int j, const Sight& sight) {
   const Subject::Track& track = *plan_->track[j];
   const int owner = plan_->owner[j];
   const Subject& subject = (*subjects_)[static_cast<std::size_t>(owner)];
-  const double q = subject.detection_probability[static_cast<std::size_t>(sight.eye->sensor)];
-  if (!track.detectable || q <= 0) return;
   Eigen::Vector3d mean = track.state.position;
   if (track.moves) mean += sight.time * track.state.velocity;
+  const double q = subject.detection_probability[static_cast<std::size_t>(sight.eye->sensor)].at(
+      (mean - sight.stance.sensor).norm());
+  if (!track.detectable || q <= 0) return;
   if (!site_->sees(*sight.eye, sight.stance, mean)) return;
   touch(owner);
   Rest& rest = rest_[owner];
@@ -173,7 +174,8 @@ void Forecast::see_tile(int k, const Sight& sight) {
   const int owner = plan_->tile_owner[k];
   const Subject& subject = (*subjects_)[static_cast<std::size_t>(owner)];
   const auto sensor = static_cast<std::size_t>(sight.eye->sensor);
-  const double q = subject.detection_probability[sensor];
+  const double q = subject.detection_probability[sensor].at(
+      (plan_->tile[k]->center - sight.stance.sensor).norm());
   const double moving = q * tiles_[k];
   if (moving <= 0 || !site_->sees(*sight.eye, sight.stance, plan_->tile[k]->center)) return;
   touch(owner);

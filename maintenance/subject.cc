@@ -108,10 +108,12 @@ double class_gain(const std::vector<double>& classes,
 
 void add_sensors(Subject& subject, const std::vector<double>& classes, const Knowledge& knowledge) {
   for (const Sensor& sensor : knowledge.sensors) {
-    double q = 0;
-    for (std::size_t c = 0; c < classes.size(); ++c)
-      q += classes[c] * sensor.detection_probability[c];
-    subject.detection_probability.push_back(std::min(q, 1.0));
+    double q = 0, per_m = 0;
+    for (std::size_t c = 0; c < classes.size(); ++c) {
+      q += classes[c] * sensor.detection_probability[c].near;
+      per_m += classes[c] * sensor.detection_probability[c].per_m;
+    }
+    subject.detection_probability.emplace_back(std::min(q, 1.0), per_m);
     const int a = knowledge.class_attribute;
     subject.class_gain.push_back(
         a < 0 || sensor.confusion.empty() || subject.class_entropy < kLeastWeight

@@ -36,9 +36,11 @@ struct Subject {
   std::vector<Tile> tiles;
   double lost_entropy = 0;  ///< of where a track that leaks goes, nat
   double class_entropy = 0, attribute_entropy = 0;
-  std::vector<double> detection_probability;  ///< per sensor of Knowledge, over its classes
-  std::vector<double> class_gain;             ///< per sensor: what one detection tells of the class
-  ByAxis initial_velocity_variance;           ///< of the model a found object goes to
+  /// Per sensor of Knowledge, over its classes: means of what it is near at hand and of how it
+  /// changes with the distance.
+  std::vector<DetectionProbability> detection_probability;
+  std::vector<double> class_gain;    ///< per sensor: what one detection tells of the class
+  ByAxis initial_velocity_variance;  ///< of the model a found object goes to
   ByAxis found_psd;
   bool found_moves = false;
 

@@ -150,18 +150,19 @@ void MovingIntensity::advance(double time) {
   mixtures_ = std::move(next);
 }
 
-double MovingIntensity::miss(const MapView& view, double p) {
-  if (p <= 0 || mixtures_->empty() || view.sees_nothing()) return 0;
-  double seen = 0;
+double MovingIntensity::miss(const MapView& view,
+                             const std::function<double(const Eigen::Vector3d&)>& p) {
+  if (mixtures_->empty() || view.sees_nothing()) return 0;
+  double expected = 0;
   auto next = std::make_shared<std::vector<Mixture>>(*mixtures_);
   for (Mixture& mixture : *next)
     for (Component& c : mixture) {
-      const double in_view = view.mass(c.density.position_density());
-      seen += c.weight * in_view;
-      c.weight *= 1 - p * in_view;
+      const double q = p(c.density.position) * view.mass(c.density.position_density());
+      expected += c.weight * q;
+      c.weight *= 1 - q;
     }
   mixtures_ = std::move(next);
-  return seen;
+  return expected;
 }
 
 double MovingIntensity::intensity(const Gaussian& z) const {

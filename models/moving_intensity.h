@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -45,9 +46,10 @@ class MovingIntensity {
   /// Predicts to `time` (not before its own): motion, departures, and new arrivals.
   void advance(double time);
 
-  /// A sensor that detects what is in view with probability p saw nothing new: each component keeps
-  /// 1 - p v of its weight, v its mass in view. Returns the sum of v times weight before.
-  double miss(const MapView& view, double p);
+  /// A sensor that detects what is in view with probability p(mean of the component) saw nothing
+  /// new: each component keeps 1 - p v of its weight, v its mass in view. Returns how many
+  /// detections were expected, the sum of p v times weight before.
+  double miss(const MapView& view, const std::function<double(const Eigen::Vector3d&)>& p);
 
   /// How densely such objects would be measured at z: sum of w N(z; H m, H P H' + R), per m^dims.
   double intensity(const Gaussian& z) const;

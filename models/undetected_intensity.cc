@@ -29,6 +29,11 @@ int Tiling::place_in_tile(int cell) const {
   return y % kEdge * kEdge + x % kEdge;
 }
 
+int Tiling::cell(int tile, int place) const {
+  const int x = tile % columns * kEdge + place % kEdge, y = tile / columns * kEdge + place / kEdge;
+  return y * grid.columns + x;
+}
+
 double UndetectedIntensity::untouched(int cell, double time) const {
   const double mu = model_->departure_rate;
   return model_->start * std::exp(-mu * time) + arrival_rate(cell) * arrived(mu, time);

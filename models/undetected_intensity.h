@@ -19,6 +19,7 @@ struct Tiling {
   int tiles() const { return columns * rows; }
   int tile_of(int cell) const;
   int place_in_tile(int cell) const;
+  int cell(int tile, int place) const;  ///< of the grid, or beyond it
 };
 
 /// The visible share of each cell, for the tiles where there is any.

@@ -202,7 +202,8 @@ class Simulation {
       const Thing& thing = scene_.things[i];
       const Eigen::Vector3d point(thing.position.x(), thing.position.y(), 0);
       const bool detected = senses_.happens(
-          sensor.detection_probability[static_cast<std::size_t>(thing.object_class)]);
+          sensor.detection_probability[static_cast<std::size_t>(thing.object_class)].at(
+              (point - site_.stance(eye, robot_.base()).sensor).norm()));
       const double ex = spread * senses_.normal(), ey = spread * senses_.normal();
       if (!detected || !site_.sees(eye, robot_.base(), point)) continue;
       look.seen.push_back(

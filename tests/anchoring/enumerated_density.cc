@@ -128,22 +128,33 @@ Eigen::MatrixXd exponential(Eigen::MatrixXd a) {
   return sum;
 }
 
-Sight Sight::of(const Frame& frame, const Sensor& sensor) {
-  if (frame.pose) refuse("poses are not enumerated");
+Sight Sight::of(const Frame& frame, const Sensor& sensor, int dims) {
   const std::optional<View>& view = frame.view ? frame.view : sensor.view;
   Sight sight;
   sight.viewer = frame.sensor;
+  Eigen::Vector2d origin(0, 0);
+  if (frame.pose) {
+    if (frame.pose->orientation != Pose().orientation) refuse("turned sensors are not enumerated");
+    const auto& [x, y, z] = frame.pose->position;
+    sight.from.emplace(x, y, dims == 3 ? z : 0);
+    origin = {x, y};
+  }
   if (!view || view->type == View::Type::kNone) return sight;
   if (view->type == View::Type::kWorld) {
     sight.everything = true;
   } else if (view->type == View::Type::kPolygon) {
     std::vector<Eigen::Vector2d> polygon;
-    for (const auto& point : view->points) polygon.emplace_back(point[0], point[1]);
+    for (const auto& point : view->points)
+      polygon.push_back(origin + Eigen::Vector2d(point[0], point[1]));
     sight.seen = rectangles(polygon);
   } else {
     refuse("sectors and frusta are not enumerated");
   }
   return sight;
+}
+
+double Sight::range(const Eigen::VectorXd& point) const {
+  return from ? (point - from->head(point.size())).norm() : 0;
 }
 
 bool Sight::contains(const Eigen::Vector2d& p) const {
@@ -173,6 +184,13 @@ int Cells::find(const Eigen::VectorXd& point) const {
 
 Eigen::Vector2d Cells::centre(int cell) const {
   return origin + edge * Eigen::Vector2d(cell % columns + 0.5, cell / columns + 0.5);
+}
+
+double Cells::range(int cell, double low, double high, const Sight& sight) const {
+  if (!sight.from) return 0;
+  const Eigen::Vector2d at = centre(cell);
+  if (dims == 2) return sight.range(at);
+  return sight.range(Eigen::Vector3d(at.x(), at.y(), std::clamp(sight.from->z(), low, high)));
 }
 
 Extent extent(const Knowledge& knowledge, const Cells& cells, int place) {

@@ -34,11 +34,14 @@ Eigen::MatrixXd exponential(Eigen::MatrixXd a);
 /// What a frame could see, in the map.
 struct Sight {
   bool everything = false;
-  std::vector<Rectangle> seen;  ///< nothing else is seen, unless `everything`
-  std::string viewer = {};      ///< the sensor
+  std::vector<Rectangle> seen;            ///< nothing else is seen, unless `everything`
+  std::string viewer = {};                ///< the sensor
+  std::optional<Eigen::Vector3d> from{};  ///< it, if it said where it is
 
-  /// The frame's view, else the sensor's, else none. Aborts on sectors, frusta and poses.
-  static Sight of(const Frame& frame, const Sensor& sensor);
+  /// The frame's view, else the sensor's, else none. Aborts on sectors, frusta and poses that turn.
+  static Sight of(const Frame& frame, const Sensor& sensor, int dims);
+  /// The distance of a point of the map from the sensor, m; 0 from nowhere.
+  double range(const Eigen::VectorXd& point) const;
   bool contains(const Eigen::Vector2d& point) const;
 };
 
@@ -56,6 +59,9 @@ struct Cells {
   double volume() const { return edge * edge * (ceiling - floor); }  ///< of a cell, m^dims
   int find(const Eigen::VectorXd& point) const;                      ///< or -1; z is not looked at
   Eigen::Vector2d centre(int cell) const;
+  /// The distance of a cell's column between two heights from the sensor, m: the centre's in the
+  /// plane, the nearest height's.
+  double range(int cell, double low, double high, const Sight& sight) const;
 };
 
 /// A region of whole cells between two heights.

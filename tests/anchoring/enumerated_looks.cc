@@ -85,4 +85,16 @@ void Laws::find(Object& object, const Sight& sight) const {
   }
 }
 
+double Laws::range(const Density& density, const BehaviourModel& model, const Sight& sight) const {
+  if (model.tracked()) return sight.range(density.state.mean.head(cells_.dims));
+  const Extent& e = extent_of(model);
+  double sum = 0, seen = 0;
+  for (int i = 0; i < cells_.count(); ++i) {
+    if (e.uniform(i) == 0 || !(sight.everything || sight.contains(cells_.centre(i)))) continue;
+    sum += cells_.range(i, e.floor, e.ceiling, sight);
+    ++seen;
+  }
+  return sum / seen;
+}
+
 }  // namespace anchord::enumeration

@@ -93,19 +93,23 @@ int label(const SymbolReport& report, const Knowledge& knowledge) {
 
 }  // namespace
 
-Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Detection& detection) {
+Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Detection& detection,
+                    const Sight& sight) {
   const int d = knowledge.dims;
   const auto* measured = std::get_if<CartesianMeasurement>(&detection.measurement);
   if (!measured) std::abort();
   const std::vector<double>& r = measured->covariance.empty() ? sensor.noise : measured->covariance;
   Measurement z{.position = Eigen::Map<const Eigen::VectorXd>(measured->position.data(), d),
                 .covariance = Eigen::Map<const Eigen::MatrixXd>(r.data(), d, d),
+                .range = 0,
                 .class_ratio = Eigen::VectorXd::Ones(static_cast<int>(knowledge.classes.size())),
                 .symbol_ratio = {},
                 .scalar = {},
                 .clutter = sensor.clutter_density,
                 .log_odds = 0,
                 .score = {}};
+  if (sight.from) z.position += sight.from->head(d);
+  z.range = sight.range(z.position);
   int reported = -1;
   for (const AttributeReport& report : detection.attributes) {
     std::size_t a = 0;
@@ -130,8 +134,8 @@ Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Dete
   }
   if (detection.score) {
     const double score = std::clamp(*detection.score, 1e-6, 1 - 1e-6);
-    const ScoreCalibration& as = sensor.score_calibration.at(reported);  // scenes have no pose
-    const double odds = std::exp(as.a) * std::pow(score / (1 - score), as.b);
+    const ScoreCalibration& as = sensor.score_calibration.at(reported);
+    const double odds = std::exp(as.a + as.per_m * z.range) * std::pow(score / (1 - score), as.b);
     const double real_share = sensor.real_share.at(reported);
     z.clutter /= odds;
     z.log_odds = std::log(odds);
@@ -140,11 +144,17 @@ Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Dete
   return z;
 }
 
-Eigen::VectorXd detection_probabilities(const Knowledge& knowledge, const Sensor& sensor) {
+Eigen::VectorXd detection_probabilities(const Knowledge& knowledge, const Sensor& sensor,
+                                        double range) {
   Eigen::VectorXd p(static_cast<int>(knowledge.classes.size()));
   for (int c = 0; c < p.size(); ++c) {
-    p(c) = sensor.detection_probability.empty() ? knowledge.classes[c].detection_probability
-                                                : sensor.detection_probability[c];
+    const DetectionProbability& of = sensor.detection_probability.empty()
+                                         ? knowledge.classes[c].detection_probability
+                                         : sensor.detection_probability[c];
+    p(c) = of.near;
+    if (of.per_m == 0) continue;
+    const double odds = of.near / (1 - of.near) * std::exp(of.per_m * range);
+    p(c) = std::clamp(odds / (1 + odds), 1e-6, 1 - 1e-6);
   }
   return p;
 }

@@ -168,10 +168,9 @@ double Laws::predict(Object& object, double dt) const {
 double Laws::miss(Object& object, const Sensor& sensor, const Sight& sight,
                   const std::vector<Measurement>& detections) const {
   const auto& m = models(object);
-  const Eigen::VectorXd detected = detection_probabilities(knowledge_, sensor);
-  const double p = object.classes.dot(detected);
-  std::vector<double> v_m, mass, deviation;
-  double v = 0;
+  const Eigen::VectorXd before = object.classes;
+  Eigen::VectorXd q_c = Eigen::VectorXd::Zero(before.size());  // detected, if of class c
+  std::vector<double> v_m, p_m, mass, deviation;
   for (std::size_t i = 0; i < m.size(); ++i) {
     mass.push_back(visible(object.models[i], m[i], sight));
     deviation.push_back(m[i].tracked() && object.models[i].weight > 0
@@ -179,6 +178,10 @@ double Laws::miss(Object& object, const Sensor& sensor, const Sight& sight,
                             : 1);
     v_m.push_back(m[i].tracked() ? object.models[i].looks.at(mass[i], sight.viewer, deviation[i])
                                  : mass[i]);
+    const double away = v_m[i] > 0 ? range(object.models[i], m[i], sight) : 0;
+    const Eigen::VectorXd detected = detection_probabilities(knowledge_, sensor, away);
+    const double p = before.dot(detected);
+    p_m.push_back(p);
     if (m[i].shares() && object.models[i].weight > 0) {
       Moments& state = object.models[i].state;
       const auto hidden = hidden_in(object, state, m[i], detections, knowledge_);
@@ -196,18 +199,17 @@ double Laws::miss(Object& object, const Sensor& sensor, const Sight& sight,
       }
       state = sum;
     }
-    v += object.models[i].weight * v_m[i];
+    q_c += object.models[i].weight * v_m[i] * detected;
   }
-  const double q = p * v;
-  for (int c = 0; c < object.classes.size(); ++c)
-    object.classes(c) *= (1 - detected(c) * v) / (1 - q);
+  const double q = before.dot(q_c);
+  for (int c = 0; c < object.classes.size(); ++c) object.classes(c) *= (1 - q_c(c)) / (1 - q);
   for (std::size_t i = 0; i < m.size(); ++i) {
     Density& density = object.models[i];
-    density.weight *= (1 - p * v_m[i]) / (1 - q);
-    if (m[i].tracked()) density.looks.miss(mass[i], p * v_m[i], sight.viewer, deviation[i]);
+    density.weight *= (1 - p_m[i] * v_m[i]) / (1 - q);
+    if (m[i].tracked()) density.looks.miss(mass[i], p_m[i] * v_m[i], sight.viewer, deviation[i]);
     if (m[i].tracked() || v_m[i] == 0) continue;
     for (int cell = 0; cell < cells_.count(); ++cell)
-      if (sight.contains(cells_.centre(cell))) density.cells(cell) *= 1 - p;
+      if (sight.contains(cells_.centre(cell))) density.cells(cell) *= 1 - p_m[i];
     density.cells /= density.cells.sum();
   }
   follow_class(object);
@@ -228,8 +230,9 @@ double Laws::likelihood(const Density& density, const BehaviourModel& model,
 double Laws::detect(Object& object, const Sensor& sensor, const Sight& sight,
                     const Measurement& z) const {
   const auto& m = models(object);
-  Eigen::VectorXd classes = object.classes.cwiseProduct(detection_probabilities(knowledge_, sensor))
-                                .cwiseProduct(z.class_ratio);
+  Eigen::VectorXd classes =
+      object.classes.cwiseProduct(detection_probabilities(knowledge_, sensor, z.range))
+          .cwiseProduct(z.class_ratio);
   if (z.score) {
     const double before = joint_log_ratio(object.scores, sensor.score_memory.rest);
     object.scores.emplace_back(object.age, *z.score);

@@ -14,6 +14,7 @@ namespace anchord::enumeration {
 struct Measurement {
   Eigen::VectorXd position;
   Eigen::MatrixXd covariance;
+  double range = 0;                             ///< from the sensor, m
   Eigen::VectorXd class_ratio;                  ///< m(c) / pi(c); ones if no class is reported
   std::map<int, Eigen::VectorXd> symbol_ratio;  ///< by attribute other than class: m(s) / pi(s)
   std::map<int, ScalarReport> scalar;           ///< by attribute
@@ -28,10 +29,12 @@ Eigen::VectorXd symbol_ratio(const SymbolReport& report, const Attribute& attrib
                              const Sensor& sensor, std::size_t attribute_index);
 
 /// Of a phantom its class_ratio leaves out what the score says.
-Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Detection& detection);
+Measurement measure(const Knowledge& knowledge, const Sensor& sensor, const Detection& detection,
+                    const Sight& sight = {});
 
-/// p_D of every class for a sensor.
-Eigen::VectorXd detection_probabilities(const Knowledge& knowledge, const Sensor& sensor);
+/// p_D of every class for a sensor at a distance, m.
+Eigen::VectorXd detection_probabilities(const Knowledge& knowledge, const Sensor& sensor,
+                                        double range);
 
 /// What is believed of an object that exists, in one world.
 struct Object {
@@ -71,6 +74,8 @@ class Laws {
   double visible(const Density& density, const BehaviourModel& model, const Sight& sight) const;
   double mass_in_view(const Density& density, const BehaviourModel& model,
                       const Sight& sight) const;
+  /// Of its mean; of a `somewhere` the mean distance of what of the place is in view.
+  double range(const Density& density, const BehaviourModel& model, const Sight& sight) const;
   double likelihood(const Density& density, const BehaviourModel& model,
                     const Measurement& z) const;
   /// It is in what was seen.

@@ -45,10 +45,11 @@ class Undetected {
 
   /// Returns how many detections of clutter and of undetected objects were to be expected.
   double look(const Sensor& sensor, const Sight& sight) {
-    const Eigen::VectorXd p = detection_probabilities(knowledge_, sensor);
     double expected = 0;
     for (int i = 0; i < cells_.count(); ++i) {
       if (!sight.contains(cells_.centre(i))) continue;
+      const Eigen::VectorXd p = detection_probabilities(
+          knowledge_, sensor, cells_.range(i, cells_.floor, cells_.ceiling, sight));
       expected += (sensor.clutter_density + p.dot(lambda_.col(i))) * cells_.volume();
       for (int c = 0; c < lambda_.rows(); ++c) lambda_(c, i) *= 1 - p(c);
     }
@@ -57,7 +58,8 @@ class Undetected {
 
   /// Each class's term of e(z).
   Eigen::VectorXd terms(const Sensor& sensor, const Measurement& z) const {
-    Eigen::VectorXd e = detection_probabilities(knowledge_, sensor).cwiseProduct(z.class_ratio);
+    Eigen::VectorXd e =
+        detection_probabilities(knowledge_, sensor, z.range).cwiseProduct(z.class_ratio);
     const int cell = cells_.find(z.position);
     for (int c = 0; c < e.size(); ++c) {
       e(c) *= cell < 0 ? knowledge_.classes[c].undetected_intensity : lambda_(c, cell);
@@ -123,11 +125,11 @@ class Enumeration {
     for (std::size_t t = 0; t < frames.size(); ++t) {
       Step step;
       step.sensor = &sensor_of(knowledge, frames[t]);
-      step.sight = Sight::of(frames[t], *step.sensor);
+      step.sight = Sight::of(frames[t], *step.sensor, knowledge.dims);
       if (t > 0) step.dt = seconds_between(frames[t - 1].utime, frames[t].utime);
       undetected.predict(step.dt);
       for (const Detection& detection : frames[t].detections) {
-        step.detections.push_back(measure(knowledge, *step.sensor, detection));
+        step.detections.push_back(measure(knowledge, *step.sensor, detection, step.sight));
         step.terms.push_back(undetected.terms(*step.sensor, step.detections.back()));
         step.named.push_back(parse_reference(detection.object));
       }

@@ -97,13 +97,12 @@ class Leaves : public testing::Test {
       predict(leaf, leaf.utime + from_seconds(dice.scale(0.01, 30)), background());
     const MapFrame f = random_frame();
     const Visibility visibility(f, background());
-    const auto& p = f.sensor->detection_probability;
-    const LeafVisibility shown = visibility.of(leaf, p, {}, 0);
+    const LeafVisibility shown = visibility.of(leaf, *f.sensor, {}, 0);
     if (dice.chance(0.5)) {
       give(leaf, f.detections[0], shown, *f.sensor, background());
       visibility.find(leaf, {}, 0);
     } else {
-      give_nothing(leaf, shown, visibility, p, background());
+      give_nothing(leaf, shown, visibility, *f.sensor, background());
     }
   }
 

@@ -298,7 +298,7 @@ TEST(Occlusion, APartOfADensityIsBehindAWall) {
   const auto next = place_in_map(posed(1, {1, 2, 0}), background);
   const Visibility visibility(*next, background);
   const Leaf& leaf = *world.belief()->clusters[0]->anchors[0].leaves[0];
-  const LeafVisibility shown = visibility.of(leaf, {1, 1}, {}, 0);
+  const LeafVisibility shown = visibility.of(leaf, *next->sensor, {}, 0);
   std::mt19937_64 random(3);
   Dice dice(random);
   int clear = 0;

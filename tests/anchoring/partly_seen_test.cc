@@ -147,8 +147,9 @@ double worst_of_a_minute(const World& world, const View& view, const Kinematic& 
   double worst = 0;
   for (int i = 1; i <= kFrames; ++i) {
     predict(leaf, at_second(0.1 * i), background);
-    const std::vector<double> p{kDetected, kDetected};
-    give_nothing(leaf, visibility.of(leaf, p, occlusion, kCup), visibility, p, background);
+    const Sensor& sensor = *placed.sensor;
+    give_nothing(leaf, visibility.of(leaf, sensor, occlusion, kCup), visibility, sensor,
+                 background);
     particles.move(model, 0.1);
     particles.miss(seen);
     worst = std::max(worst, std::abs(leaf.existence - particles.existence()));

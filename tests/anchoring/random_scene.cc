@@ -9,6 +9,7 @@
 #include "tests/anchoring/dice.h"
 #include "tests/anchoring/enumeration.h"
 #include "tests/anchoring/random_looks.h"
+#include "tests/anchoring/random_ranges.h"
 
 namespace anchord::enumeration {
 namespace {
@@ -27,6 +28,7 @@ class Maker {
     if (variety_.looks) add_looks(known(), dice_);
     make_sites();
     make_frames();
+    if (variety_.ranged) add_ranges(scene_, dice_);
   }
   Scene take() { return std::move(scene_); }
 

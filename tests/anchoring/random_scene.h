@@ -32,6 +32,7 @@ struct Variety {
   bool verification = false;    ///< detections that name their object, as reference() does
   bool phantoms = false;        ///< with `classes`: one of them is a phantom
   bool looks = false;           ///< with `classes`: what is false looks like one of them
+  bool ranged = false;          ///< sensors say where they are; p_D depends on the distance
   double max_worlds = 20'000;   ///< detections are left out until there are fewer
 };
 

@@ -25,7 +25,8 @@ Variety random_variety(std::mt19937_64& random) {
     *kind = dice.chance(0.4);
   std::mt19937_64 apart = random;  // so that scenes without them stay as they are
   Dice more(apart);
-  for (bool* kind : {&v.shared, &v.doubled, &v.phantoms, &v.looks}) *kind = more.chance(0.4);
+  for (bool* kind : {&v.shared, &v.doubled, &v.phantoms, &v.looks, &v.ranged})
+    *kind = more.chance(0.4);
   v.changes = v.changes && v.attributes;
   v.phantoms = v.phantoms && v.classes;
   v.looks = v.looks && v.classes;

@@ -65,7 +65,7 @@ TEST(Configuration, WithoutAnythingButBoundsHasTheDocumentedDefaults) {
   EXPECT_EQ(object.models[1].place, -1);
   EXPECT_EQ(object.models[1].rate, 0.001);
   EXPECT_EQ(knowledge.default_sensor.clutter_density, 1e-3);
-  EXPECT_EQ(knowledge.default_sensor.detection_probability, std::vector<double>{0.9});
+  EXPECT_EQ(knowledge.default_sensor.detection_probability, std::vector<DetectionProbability>{0.9});
   EXPECT_FALSE(knowledge.default_sensor.view);
   EXPECT_TRUE(knowledge.default_sensor.noise.empty());
   EXPECT_EQ(knowledge.limits.max_hypotheses, 100);
@@ -228,7 +228,7 @@ TEST(Configuration, DetectionProbabilityFallsBackFromSensorToClass) {
                 "b": {"detection_probability": {"cup": 0.4}},
                 "c": {"detection_probability": {"cup": 0.5, "default": 0.6}},
                 "d": {"detection_probability": 0.7}})");
-  using P = std::vector<double>;  // of cup, box, ant
+  using P = std::vector<DetectionProbability>;  // of cup, box, ant
   EXPECT_EQ(knowledge.default_sensor.detection_probability, (P{0.1, 0.3, 0.2}));
   EXPECT_EQ(knowledge.sensor("unknown").detection_probability, (P{0.1, 0.3, 0.2}));
   EXPECT_EQ(knowledge.sensor("a").detection_probability, (P{0.1, 0.3, 0.2}));

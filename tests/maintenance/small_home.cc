@@ -39,7 +39,7 @@ Subject cup(const std::string& id, double x, double y, double variance, const Kn
 }
 
 Subject with_q(Subject subject, double q) {
-  for (double& each : subject.detection_probability) each = q;
+  for (DetectionProbability& each : subject.detection_probability) each = q;
   return subject;
 }
 

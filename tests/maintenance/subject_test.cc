@@ -94,7 +94,7 @@ TEST(Subject, KnowsHowOftenASensorSeesItAndWhatThatTellsOfItsClass) {
   const std::vector<double> b = object.classes(*world.background());
   const Subject subject = subject_of(object, *world.background());
   ASSERT_EQ(subject.detection_probability.size(), 1u);
-  EXPECT_NEAR(subject.detection_probability[0], 0.9 * b[0] + 0.6 * b[1], 1e-12);
+  EXPECT_NEAR(subject.detection_probability[0].near, 0.9 * b[0] + 0.6 * b[1], 1e-12);
   // The symmetric channel: H_b(reported) - H_b(0.2).
   const double reported = 0.8 * b[0] + 0.2 * b[1];
   EXPECT_NEAR(subject.class_gain[0], binary_entropy(reported) - binary_entropy(0.2), 1e-12);

@@ -19,6 +19,10 @@ using enumeration::Dice;
 /// Sums of positive terms of like size, a few thousand of them.
 constexpr double kRounding = 1e-11;
 
+auto always(double p) {
+  return [p](const Eigen::Vector3d&) { return p; };
+}
+
 MapView everything() {
   View view;
   view.type = View::Type::kWorld;
@@ -187,7 +191,7 @@ TEST(MovingIntensity, NothingIsLostByMerging) {
     expected = expected * std::exp(-0.02 * dt) + 0.4 * -std::expm1(-0.02 * dt) / 0.02;
     intensity.advance(time);
     if (frame % 3 == 0) {
-      intensity.miss(everything(), p);
+      intensity.miss(everything(), always(p));
       expected *= 1 - p;
     }
     ASSERT_NEAR(moments(intensity).number, expected, kRounding * expected);
@@ -212,7 +216,7 @@ TEST(MovingIntensity, SaysOfADetectionWhatEveryInstantOfArrivalSays) {
       const MapView view = dice.chance(0.5) ? everything() : square(-30, 12);
       const double p = dice.uniform(0.1, 0.9);
       expected.miss(view, p);
-      intensity.miss(view, p);
+      intensity.miss(view, always(p));
     }
     for (int k = 0; k < 20; ++k) {
       const Gaussian z = spot(dice.uniform(-5, 22), dice.uniform(-4, 8), 0.3);
@@ -258,7 +262,7 @@ TEST(MovingIntensity, StaysSmallWhateverHappens) {
   left_alone.advance(86400);
   for (int i = 1; i <= 3000; ++i) {
     looked_at.advance(0.1 * i);
-    looked_at.miss(everything(), i % 7 == 0 ? 0.9 : 0.01);
+    looked_at.miss(everything(), always(i % 7 == 0 ? 0.9 : 0.01));
   }
   for (const auto* intensity : {&looked_at, &left_alone})
     for (const auto& mixture : intensity->mixtures()) {
@@ -286,7 +290,7 @@ TEST(MovingIntensity, CopiesDoNotShareChanges) {
   intensity.advance(2);
   const MovingIntensity before = intensity;
   const double then = moments(before).number;
-  intensity.miss(everything(), 0.5);
+  intensity.miss(everything(), always(0.5));
   intensity.advance(5);
   EXPECT_EQ(moments(before).number, then);
 }
