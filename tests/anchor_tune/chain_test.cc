@@ -67,7 +67,7 @@ TEST(Chain, FindsARateOfHidingWhereThereIsOne) {
   Dice dice(random);
   int inside = 0;
   for (int scene = 0; scene < 20; ++scene) {
-    const auto fit = fit_detectability(simulated(0.9, 0.3, 1.5, 30, dice), 1);
+    const auto fit = fit_detectability(simulated(0.9, 0.3, 1.5, 30, dice), 1, false);
     ASSERT_TRUE(fit.hidden);
     const Estimate& p = fit.detection_probability[0];
     inside += p.low < 0.9 && 0.9 < p.high;
@@ -82,15 +82,68 @@ TEST(Chain, MissesThatDoNotComeTogetherNeedNone) {
   std::mt19937_64 random(13);
   Dice dice(random);
   for (int scene = 0; scene < 20; ++scene) {
-    const auto fit = fit_detectability(simulated(0.8, 0, 0, 10, dice), 1);
+    const auto fit = fit_detectability(simulated(0.8, 0, 0, 10, dice), 1, false);
     EXPECT_FALSE(fit.hidden) << "the criterion is wrong in one of some thousand";
     // A normal deviation is 0.4 / sqrt(1000); four of them.
     EXPECT_NEAR(fit.detection_probability[0].value, 0.8, 0.05);
   }
 }
 
+/// Looks from distances that change from one object to the next, and a little from look to look.
+Glances seen_from_afar(double near, double per_m, double hide, double show, Dice& dice) {
+  Glances glances = simulated(1, hide, show, 40, dice);
+  for (auto& looks : glances) {
+    const double away = dice.uniform(0, 50);
+    for (Glance& look : looks) {
+      look.range = away + dice.uniform(0, 5);
+      const double odds = near / (1 - near) * std::exp(per_m * look.range);
+      look.found = look.found && dice.chance(odds / (1 + odds));
+    }
+  }
+  return glances;
+}
+
+TEST(Chain, FindsHowDetectionFallsWithTheDistance) {
+  std::mt19937_64 random(17);
+  Dice dice(random);
+  constexpr double kNear = 0.97, kPerM = -0.08;
+  int inside = 0, alone = 0;
+  for (int scene = 0; scene < 20; ++scene) {
+    const auto fit = fit_detectability(seen_from_afar(kNear, kPerM, 0.3, 1.5, dice), 1, true);
+    ASSERT_TRUE(fit.hidden && fit.per_m);
+    EXPECT_GT(fit.range_gain, 10);
+    const Estimate& p = fit.detection_probability[0];
+    inside += p.low < kNear && kNear < p.high;
+    inside += fit.per_m->low < kPerM && kPerM < fit.per_m->high;
+    inside += fit.hide.low < 0.3 && 0.3 < fit.hide.high;
+    inside += fit.show.low < 1.5 && 1.5 < fit.show.high;
+    const auto one_number =
+        fit_detectability(seen_from_afar(kNear, kPerM, 0.3, 1.5, dice), 1, false);
+    EXPECT_TRUE(one_number.range_pays && !one_number.per_m);
+    const auto always = fit_detectability(seen_from_afar(kNear, kPerM, 0, 0, dice), 1, true);
+    ASSERT_TRUE(always.per_m);
+    EXPECT_FALSE(always.hidden) << "the criterion is wrong in one of some thousand";
+    alone +=
+        always.detection_probability[0].low < kNear && kNear < always.detection_probability[0].high;
+    alone += always.per_m->low < kPerM && kPerM < always.per_m->high;
+  }
+  // 76 of 80 and 38 of 40 are expected; fewer than 69 and 33 in one run of some hundred.
+  EXPECT_GE(inside, 69);
+  EXPECT_GE(alone, 33);
+}
+
+TEST(Chain, DetectionThatDoesNotFallIsOneNumber) {
+  std::mt19937_64 random(19);
+  Dice dice(random);
+  int ranged = 0;
+  for (int scene = 0; scene < 20; ++scene)
+    ranged += fit_detectability(seen_from_afar(0.8, 0, 0.3, 1.5, dice), 1, true).per_m.has_value();
+  // Of 4000 looks the criterion asks for 4.1 in log-likelihood: chance is that good once in 250.
+  EXPECT_LE(ranged, 1);
+}
+
 TEST(Chain, ASensorWithoutLooksIsUnknown) {
-  const auto fit = fit_detectability({{{0, 0, true}, {0.1, 0, true}}}, 2);
+  const auto fit = fit_detectability({{{0, 0, true}, {0.1, 0, true}}}, 2, false);
   EXPECT_EQ(fit.detection_probability[0].value, 1);
   EXPECT_EQ(fit.detection_probability[1].low, 0);
   EXPECT_EQ(fit.detection_probability[1].high, 1);

@@ -41,6 +41,13 @@ TEST(Finding, ANumberThatGetsMembersStandsForTheOthers) {
   EXPECT_EQ(parsed(text), json({{"p", {{"default", 0.9}, {"cup", 0.5}}}}));
 }
 
+TEST(Finding, AnArrayThatGetsMembersByNameDoesSo) {
+  const auto text =
+      tuned_text({{"p", {0.9, -0.1}}},
+                 {{JsonPath("/p/cup"), {0.5, -0.2}, ""}, {JsonPath("/p/cup/1"), -0.3, "Why."}}, "");
+  EXPECT_EQ(parsed(text), json({{"p", {{"default", {0.9, -0.1}}, {"cup", {0.5, -0.3}}}}}));
+}
+
 TEST(Finding, LongReasonsAreWrapped) {
   const auto text = tuned_text({{"a", 1}}, {{JsonPath("/a"), 2, std::string(300, 'x') + " y"}}, "");
   EXPECT_NE(text.find("x\n  // y\n"), std::string::npos);
@@ -50,6 +57,7 @@ TEST(Finding, LongReasonsAreWrapped) {
 TEST(Finding, HasFourDigits) {
   EXPECT_EQ(number(0.123456), 0.1235);
   EXPECT_EQ(number(1234567), 1235000);
+  EXPECT_EQ(number(0.99998765432), 1 - 1.235e-05);
   const Finding f = estimated(JsonPath("/a"), {0.5, 0.25, 0.75}, "Of 4");
   EXPECT_EQ(f.why, "Of 4: 0.5 (95 %: 0.25 to 0.75).");
   EXPECT_EQ(report_text({f}), "a 0.5: Of 4: 0.5 (95 %: 0.25 to 0.75).\n");

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "anchoring/world.h"
+#include "knowledge/configuration.h"
 #include "tests/anchor_tune/street.h"
 
 namespace anchord::tuning {
@@ -29,8 +30,7 @@ std::vector<Recording> recordings(const Street& street, int count, std::uint64_t
   return all;
 }
 
-TEST(FromFrames, EvidenceIsGreatestNearTheTruth) {
-  const Street street = small_street();
+void expect_greatest_near_the_truth(const Street& street) {
   const auto frames = recordings(street, 6, 40);
   Knowledge knowledge = knowledge_of(street);
   const double at_truth = *log_evidence(knowledge, frames);
@@ -38,12 +38,46 @@ TEST(FromFrames, EvidenceIsGreatestNearTheTruth) {
     for (const double factor : {0.25, 4.0}) {
       Knowledge off = knowledge;
       const double odds = std::exp(to_free(p.start, p.scale)) * factor;
-      p.set(off, p.scale == Scale::kLog ? odds : odds / (1 + odds));
+      p.set(off, p.scale == Scale::kPerMetre ? p.start * factor
+                 : p.scale == Scale::kLog    ? odds
+                                             : odds / (1 + odds));
       // The interval of the most uncertain of them, the departures of some forty objects, reaches
       // less than a factor of 2.
       EXPECT_GT(at_truth, *log_evidence(off, frames) + 1.92)
           << dotted(p.path) << " times " << factor;
     }
+}
+
+TEST(FromFrames, EvidenceIsGreatestNearTheTruth) { expect_greatest_near_the_truth(small_street()); }
+
+Street seen_from_a_corner() {
+  Street street = small_street();
+  street.detection_probability = 0.98;
+  street.per_m = -0.2;  // 0.74 at the far corner
+  return street;
+}
+
+TEST(FromFrames, EvidenceIsGreatestNearTheTruthWhereDetectionFallsWithTheDistance) {
+  expect_greatest_near_the_truth(seen_from_a_corner());
+}
+
+TEST(FromFrames, HowDetectionFallsIsWrittenAsItIsRead) {
+  const Street street = seen_from_a_corner();
+  const auto findings = findings_from_frames(recordings(street, 1, 70), knowledge_of(street), 20);
+  ASSERT_TRUE(findings.ok());
+  const auto read = parse_configuration(
+      tuned_text(nlohmann::json::parse(configuration_of(street)), *findings, ""));
+  ASSERT_TRUE(read.ok()) << read.mistakes()[0].text();
+  const Knowledge knowledge = read.knowledge();
+  int estimates = 0;
+  for (const Finding& f : *findings) {
+    const std::string at = dotted(f.path);
+    if (!f.estimate || !at.starts_with("sensors.camera.detection_probability")) continue;
+    ++estimates;
+    const DetectionProbability& p = knowledge.sensor("camera").detection_probability[0];
+    EXPECT_EQ(at.back() == '0' ? p.near : p.per_m, f.value.get<double>()) << at;
+  }
+  EXPECT_EQ(estimates, 2);
 }
 
 TEST(FromFrames, IntervalsHoldTheTruth) {

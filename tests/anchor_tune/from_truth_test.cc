@@ -23,6 +23,11 @@ std::map<std::string, double> true_numbers(const Street& s) {
       {"classes.object.departure_rate", s.departure_rate},
       {"classes.object.undetected_intensity", s.undetected_intensity},
       {"sensors.camera.clutter_density", s.clutter_density}};
+  if (s.per_m != 0) {
+    numbers.erase("classes.object.detection_probability");
+    numbers["classes.object.detection_probability.0"] = s.detection_probability;
+    numbers["classes.object.detection_probability.1"] = s.per_m;
+  }
   if (s.ghosts.arrival_rate > 0) {
     numbers["classes.ghost.models.0.acceleration_psd"] = s.psd;
     numbers["classes.ghost.detection_probability"] = s.ghosts.detection_probability;
@@ -44,6 +49,7 @@ Knowledge wrong_numbers(Street s) {
   s.velocity_variance /= 10;
   s.detection_probability = 0.5;
   s.hide = s.show = 0;
+  if (s.per_m != 0) s.per_m = -0.01;
   s.clutter_density *= 5;
   s.arrival_rate = s.departure_rate = s.undetected_intensity = 1e-3;
   return knowledge_of(s);
@@ -80,6 +86,14 @@ TEST(FromTruth, IntervalsHoldTheTruthWhereObjectsHide) {
   Street street;
   street.hide = 0.2;
   street.show = 0.5;
+  const auto hits = count_hits(street, kRuns);
+  for (const auto& [name, value] : true_numbers(street)) EXPECT_GE(hits.at(name), kEnough) << name;
+}
+
+TEST(FromTruth, IntervalsHoldTheTruthWhereDetectionFallsWithTheDistance) {
+  Street street;
+  street.detection_probability = 0.98;
+  street.per_m = -0.2;  // 0.5 at about the far corner
   const auto hits = count_hits(street, kRuns);
   for (const auto& [name, value] : true_numbers(street)) EXPECT_GE(hits.at(name), kEnough) << name;
 }

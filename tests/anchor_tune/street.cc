@@ -65,14 +65,15 @@ class Simulation {
   Frame look(double seconds) {
     Frame f = frame(seconds, {}, "camera");
     f.view.emplace().type = View::Type::kWorld;
+    if (s_.per_m != 0) f.pose.emplace();
     const double deviation = std::sqrt(s_.variance);
-    const auto see = [&](const std::vector<Walker>& walkers, double p) {
+    const auto see = [&](const std::vector<Walker>& walkers, DetectionProbability p) {
       for (const Walker& w : walkers)
-        if (!w.hidden && dice_.chance(p))
+        if (!w.hidden && dice_.chance(p.at(w.position.norm())))
           f.detections.push_back(at(w.position.x() + deviation * dice_.normal(),
                                     w.position.y() + deviation * dice_.normal(), s_.variance));
     };
-    see(walkers_, s_.detection_probability);
+    see(walkers_, {s_.detection_probability, s_.per_m});
     see(ghosts_, s_.ghosts.detection_probability);
     for (int n = poisson(s_.clutter_density * area(), dice_); n > 0; --n)
       f.detections.push_back(at(dice_.uniform(0, s_.side), dice_.uniform(0, s_.side), s_.variance));
@@ -132,6 +133,7 @@ std::string configuration_of(const Street& s) {
               {"arrival_rate", s.arrival_rate},
               {"departure_rate", s.departure_rate},
               {"undetected_intensity", s.undetected_intensity}};
+  if (s.per_m != 0) object["detection_probability"] = {s.detection_probability, s.per_m};
   if (s.hide > 0) {
     model["detectable"] = false;
     model["initial_weight"] = 0;

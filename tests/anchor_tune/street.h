@@ -16,6 +16,7 @@ struct Street {
   double seconds_per_frame = 0.5;
   double psd = 0.02, velocity_variance = 0.25;
   double detection_probability = 0.9;
+  double per_m = 0;                    ///< by which its logit changes, from a camera in the corner
   double hide = 0, show = 0;           ///< 1/s; it starts in the chain's stationary state
   double clutter_density = 0.01;       ///< per m^2 and frame
   double arrival_rate = 5e-4;          ///< per m^2 and s

@@ -20,7 +20,7 @@ Glances glances_of(const Judgement& judgement, int object_class) {
       auto& [last, looks] =
           objects.try_emplace({frame.recording, sight.object}, frame.utime, std::vector<Glance>())
               .first->second;
-      looks.push_back({seconds_between(last, frame.utime), frame.sensor, sight.found});
+      looks.push_back({seconds_between(last, frame.utime), frame.sensor, sight.found, sight.range});
       last = frame.utime;
     }
   Glances glances;
@@ -73,6 +73,19 @@ void add_models(const Judgement& judgement, int object_class, const Knowledge& k
       estimated(transitions / std::size_t{1} / "rate", seen.show, "It shows itself, per s"));
 }
 
+/// One sensor's p_D, and where it changes with the distance by how much.
+void add_detection_probability(const JsonPath& at, const Estimate& p,
+                               const std::optional<Estimate>& per_m, const std::string& how,
+                               Findings& out) {
+  if (!per_m) {
+    out.push_back(estimated(at, p, how));
+    return;
+  }
+  out.push_back({at, {number(p.value), number(per_m->value)}, ""});
+  out.push_back(estimated(at / std::size_t{0}, p, how + ", near at hand"));
+  out.push_back(estimated(at / std::size_t{1}, *per_m, "By which its logit changes, per m"));
+}
+
 void add_detection(const Judgement& judgement, int object_class, const Knowledge& knowledge,
                    const Detectability& seen, const Glances& glances, Findings& out) {
   const std::string& name = knowledge.classes[static_cast<std::size_t>(object_class)].name;
@@ -86,16 +99,27 @@ void add_detection(const Judgement& judgement, int object_class, const Knowledge
     // Never certain: as if one half more had been missed.
     p.value = std::min(p.value, (looks[s] + 0.5) / (looks[s] + 1));
     const std::string how = std::to_string(looks[s]) + " looks of " + judgement.sensors[s] +
-                            (seen.hidden ? ", while it is not hidden" : "");
+                            (seen.hidden ? ", while it is not hidden" : "") +
+                            (seen.per_m ? "; that it changes with the distance gains " +
+                                              rounded(seen.range_gain) + " in log-likelihood"
+                                        : "");
+    if (static_cast<std::ptrdiff_t>(s) == most && seen.range_pays && !seen.per_m)
+      out.push_back({JsonPath(), nullptr,
+                     "classes." + name +
+                         ".detection_probability: that it changes with the distance would gain " +
+                         rounded(seen.range_gain) +
+                         " in log-likelihood; it may where the base has [p, c]"});
     if (static_cast<std::ptrdiff_t>(s) == most)
-      out.push_back(estimated(JsonPath("/classes") / name / "detection_probability", p, how));
+      add_detection_probability(JsonPath("/classes") / name / "detection_probability", p,
+                                seen.per_m, how, out);
     const auto& now = knowledge.sensor(judgement.sensors[s]).detection_probability;
     const bool own =
         now[static_cast<std::size_t>(object_class)] !=
         knowledge.classes[static_cast<std::size_t>(object_class)].detection_probability;
     if (own || judgement.sensors.size() > 1)
-      out.push_back(estimated(
-          JsonPath("/sensors") / judgement.sensors[s] / "detection_probability" / name, p, how));
+      add_detection_probability(
+          JsonPath("/sensors") / judgement.sensors[s] / "detection_probability" / name, p,
+          seen.per_m, how, out);
   }
 }
 
@@ -171,7 +195,14 @@ Findings class_findings(const Judgement& judgement, int object_class, const Know
                        ": no truth of it was in view; it is as it was"});
     return out;
   }
-  const Detectability seen = fit_detectability(glances, static_cast<int>(judgement.sensors.size()));
+  const auto c = static_cast<std::size_t>(object_class);
+  const bool ranged =
+      knowledge.classes[c].detection_probability.per_m != 0 ||
+      std::any_of(judgement.sensors.begin(), judgement.sensors.end(), [&](const std::string& name) {
+        return knowledge.sensor(name).detection_probability[c].per_m != 0;
+      });
+  const Detectability seen =
+      fit_detectability(glances, static_cast<int>(judgement.sensors.size()), ranged);
   add_models(judgement, object_class, knowledge, options, seen, glances, out);
   add_detection(judgement, object_class, knowledge, seen, glances, out);
   add_turnover(judgement, object_class, knowledge, options, out);

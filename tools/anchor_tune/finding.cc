@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -103,10 +104,13 @@ class Printer {
   std::ostringstream out_;
 };
 
-/// A number that is to get members stands for all that are not named, as configurations read it.
+/// A number, or one's dependence on the distance, that is to get members by name stands for all
+/// that are not named, as configurations read it.
 void set(json& document, const JsonPath& path, const json& value) {
   const JsonPath above = path.parent_pointer();
-  if (!above.empty() && document.contains(above) && document[above].is_number())
+  const bool index = std::isdigit(static_cast<unsigned char>(path.back().front()));
+  if (!above.empty() && document.contains(above) &&
+      (document[above].is_number() || (document[above].is_array() && !index)))
     document[above] = {{"default", document[above]}};
   document[path] = value;
 }
@@ -126,6 +130,7 @@ std::string dotted(const JsonPath& path) {
 }
 
 json number(double value) {
+  if (value > 0.999 && value < 1) return 1 - number(1 - value).get<double>();
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return std::strtod(text, nullptr);

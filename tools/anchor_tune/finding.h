@@ -28,7 +28,7 @@ Finding estimated(JsonPath path, const Estimate& estimate, const std::string& ho
 /// `classes.cup.models.0`, for people.
 std::string dotted(const JsonPath& path);
 
-/// A number as it is written: four significant digits.
+/// A number as it is written: four significant digits; of what is nearly 1, in what it lacks.
 nlohmann::json number(double value);
 
 /// The configuration `base` (its includes merged in) with the findings in it, in order, as JSON

@@ -112,6 +112,13 @@ Findings whole_parts(const Knowledge& knowledge) {
       transitions.push_back({{"from", t.from}, {"to", t.to}, {"rate", number(t.rate)}});
     out.push_back({at / "transitions", transitions, ""});
   }
+  for (const Sensor& sensor : knowledge.sensors)
+    for (std::size_t c = 0; c < knowledge.classes.size(); ++c)
+      if (const auto& [near, per_m] = sensor.detection_probability[c]; per_m != 0)
+        out.push_back({JsonPath("/sensors") / sensor.name / "detection_probability" /
+                           knowledge.classes[c].name,
+                       {number(near), number(per_m)},
+                       ""});
   return out;
 }
 
@@ -126,11 +133,19 @@ std::vector<Parameter> parameters_of(Knowledge& knowledge,
     const JsonPath at = JsonPath("/sensors") / name;
     add_clutter(knowledge, sensor, at / "clutter_density", out);
     for (std::size_t c = 0; c < knowledge.classes.size(); ++c) {
-      if (!(sensor.detection_probability[c] > 0)) continue;
-      out.push_back({at / "detection_probability" / knowledge.classes[c].name, Scale::kLogit,
-                     sensor.detection_probability[c], [=](Knowledge& to, double value) {
-                       own_settings(to, name).detection_probability[c] = value;
+      const DetectionProbability& p = sensor.detection_probability[c];
+      if (!(p.near > 0)) continue;
+      const JsonPath place = at / "detection_probability" / knowledge.classes[c].name;
+      const bool ranged = p.per_m != 0;
+      out.push_back({ranged ? place / std::size_t{0} : place, Scale::kLogit, p.near,
+                     [=](Knowledge& to, double value) {
+                       own_settings(to, name).detection_probability[c].near = value;
                      }});
+      if (!ranged) continue;
+      out.push_back(
+          {place / std::size_t{1}, Scale::kPerMetre, p.per_m, [=](Knowledge& to, double value) {
+             own_settings(to, name).detection_probability[c].per_m = value;
+           }});
     }
   }
   for (std::size_t c = 0; c < knowledge.classes.size(); ++c) add_class(knowledge, c, out);

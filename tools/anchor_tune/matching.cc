@@ -35,11 +35,11 @@ class Judge {
     out.utime = frame.utime;
     out.view = placed->view;
     if (rows != truth_.end()) {
-      find_sights(placed->view, rows->second, out);
+      find_sights(*placed, rows->second, out);
       for (std::size_t z = 0; z < placed->detections.size(); ++z)
         out.detections.push_back(unjudged(placed->detections[z], frame, z));
       match(frame, rows->second, out);
-      add_gaps(placed->view, frame.utime, out);
+      add_gaps(*placed, out);
     }
     look(frame.utime, out);
     if (rows == truth_.end()) return std::optional<JudgedFrame>();
@@ -78,25 +78,30 @@ class Judge {
     return cell >= 0 && seen_[static_cast<std::size_t>(cell)] > 0.5;
   }
 
+  double range(const MapFrame& frame, const Eigen::Vector3d& position) const {
+    return frame.eye ? (position - *frame.eye).head(background_.dims).norm() : 0;
+  }
+
   int class_of(const TruthRow& row) const {
     if (background_.classes() == 1 && row.class_name.empty()) return 0;
     return background_.knowledge.find_class(row.class_name);
   }
 
   /// Truth that may be found, into out.sights; scored_[row] says which, -1 if it is neutral.
-  void find_sights(const MapView& view, const std::vector<TruthRow>& rows, JudgedFrame& out) {
+  void find_sights(const MapFrame& frame, const std::vector<TruthRow>& rows, JudgedFrame& out) {
     scored_.assign(rows.size(), -1);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const int object_class = class_of(rows[i]);
-      if (rows[i].neutral || object_class < 0 || !view.contains(rows[i].position)) continue;
+      if (rows[i].neutral || object_class < 0 || !frame.view.contains(rows[i].position)) continue;
       scored_[i] = static_cast<int>(out.sights.size());
-      out.sights.push_back(
-          {rows[i].id, object_class, rows[i].position, false, seen_before(rows[i].position)});
+      out.sights.push_back({rows[i].id, object_class, rows[i].position, false,
+                            seen_before(rows[i].position), range(frame, rows[i].position)});
     }
   }
 
   /// Objects that are between two of their rows, neither of them neutral.
-  void add_gaps(const MapView& view, Utime utime, JudgedFrame& out) const {
+  void add_gaps(const MapFrame& frame, JudgedFrame& out) const {
+    const Utime utime = frame.utime;
     for (const auto& [id, rows] : rows_of_) {
       const auto after = rows.lower_bound(utime);
       if (after == rows.end() || after->first == utime || after == rows.begin()) continue;
@@ -107,7 +112,8 @@ class Judge {
           seconds_between(before->first, utime) / seconds_between(before->first, after->first);
       const Eigen::Vector3d position =
           before->second->position + share * (after->second->position - before->second->position);
-      if (view.contains(position)) out.sights.push_back({id, object_class, position, false, true});
+      if (frame.view.contains(position))
+        out.sights.push_back({id, object_class, position, false, true, range(frame, position)});
     }
   }
 

@@ -41,6 +41,7 @@ struct Sight {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   bool found = false;
   bool seen_before = false;  ///< its place had been in view earlier in this recording
+  double range = 0;          ///< from the sensor, m; 0 in a frame without a pose
 };
 
 /// A frame that has truth, held against it.

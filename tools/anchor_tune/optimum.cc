@@ -121,10 +121,14 @@ double end_of_profile(const LogLikelihood& f, const Optimum& best, std::size_t i
 }  // namespace
 
 double to_free(double value, Scale scale) {
+  if (scale == Scale::kFree) return value;
+  if (scale == Scale::kPerMetre) return value * kRangeStep;
   return scale == Scale::kLog ? std::log(value) : std::log(value) - std::log1p(-value);
 }
 
 double from_free(double free, Scale scale) {
+  if (scale == Scale::kFree) return free;
+  if (scale == Scale::kPerMetre) return free / kRangeStep;
   return scale == Scale::kLog ? std::exp(free) : 1 / (1 + std::exp(-free));
 }
 

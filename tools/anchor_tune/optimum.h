@@ -8,8 +8,10 @@
 namespace anchord::tuning {
 
 /// What a parameter may be, and the scale on which it is free: `to_free` takes (0, infinity) or
-/// (0, 1) to the real line.
-enum class Scale { kLog, kLogit };
+/// (0, 1) to the real line, leaves what is on it, or takes what a metre changes to what kRangeStep
+/// metres do.
+enum class Scale { kLog, kLogit, kFree, kPerMetre };
+inline constexpr double kRangeStep = 10;  ///< m, of a first step of a search
 double to_free(double value, Scale scale);
 double from_free(double free, Scale scale);
 

@@ -10,8 +10,6 @@ namespace {
 
 constexpr double kLeastScore = 1e-6;  // as the engine clamps them
 
-constexpr double kRangeUnit = 10;  // m: a first step of the search
-
 struct Sample {
   double logit, range;
   bool right;
@@ -29,12 +27,6 @@ double log_likelihood(const std::vector<Sample>& samples, const std::vector<doub
   return total;
 }
 
-/// A number that is free as it is: the logarithm of what profile_interval() gives.
-Estimate free_interval(const LogLikelihood& f, const Optimum& best, std::size_t i, double unit) {
-  const Estimate e = profile_interval(f, best, i, Scale::kLog);
-  return {std::log(e.value) / unit, std::log(e.low) / unit, std::log(e.high) / unit};
-}
-
 }  // namespace
 
 std::optional<Calibration> calibrate(const std::vector<JudgedScore>& scores) {
@@ -42,7 +34,7 @@ std::optional<Calibration> calibrate(const std::vector<JudgedScore>& scores) {
   std::size_t right = 0;
   for (const JudgedScore& s : scores) {
     samples.push_back({to_free(std::clamp(s.p, kLeastScore, 1 - kLeastScore), Scale::kLogit),
-                       s.range / kRangeUnit, s.right});
+                       s.range / kRangeStep, s.right});
     right += s.right ? 1 : 0;
   }
   const auto varied = [&](double Sample::*of) {
@@ -60,11 +52,11 @@ std::optional<Calibration> calibrate(const std::vector<JudgedScore>& scores) {
     const Optimum with_range = maximise(f, {best.at[0], best.at[1], 0}, 0.3, 600);
     if (with_range.value - best.value > criterion) {
       best = with_range;
-      result.per_m = free_interval(f, best, 2, kRangeUnit);
+      result.per_m = profile_interval(f, best, 2, Scale::kPerMetre);
       result.off = result.off || best.value - as_it_is > 3 * criterion;
     }
   }
-  result.a = free_interval(f, best, 0, 1);
+  result.a = profile_interval(f, best, 0, Scale::kFree);
   result.b = profile_interval(f, best, 1, Scale::kLog);
   result.gain = best.value - as_it_is;
   return result;
