@@ -164,6 +164,7 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
     joint.anchors.push_back({std::move(anchor), {std::move(leaf)}});
   }
 
+  joint.hypotheses.reserve(tied.hypotheses().size());
   Children children(tied, detections, frame, belief.frames, visibility, occlusion, background);
   RankedAssociations ranked(problem, background.log_least_weight);
   const Enough enough(limits, allowance);
@@ -238,7 +239,7 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
   out.effort.work = (tied.hypotheses().size() + looked) * joint.anchors.size();
   out.effort.dropped =
       tied.dropped + dropped + prune(joint.hypotheses, limits.max_hypotheses, limits.min_weight);
-  out.clusters = split(joint, background, least == kLogZero ? 0 : std::exp(least - total));
+  out.clusters = split(std::move(joint), background, least == kLogZero ? 0 : std::exp(least - total));
   return out;
 }
 

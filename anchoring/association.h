@@ -15,6 +15,8 @@ namespace anchord {
 /// A leaf as one frame finds it: predicted to the frame's time, with what the frame's view and
 /// detections mean for it.
 struct PredictedLeaf {
+  explicit PredictedLeaf(const Leaf& before) : leaf(before) {}
+
   Leaf leaf;
   LeafVisibility shown;
   double log_miss = 0;  ///< ln(1 - r q)

@@ -33,8 +33,8 @@ ScratchVector<int> merged(AnchorTree& tree, const ScratchVector<double>& probabi
   });
   struct Kept {
     int head;  // the most probable of those in it: what others are compared with
-    std::shared_ptr<const Leaf> leaf;
     double probability;
+    std::shared_ptr<const Leaf> mixture;  // of several
   };
   ScratchVector<Kept> kept;
   for (int l : order) {
@@ -44,15 +44,19 @@ ScratchVector<int> merged(AnchorTree& tree, const ScratchVector<double>& probabi
     });
     number[l] = static_cast<int>(into - kept.begin());
     if (into == kept.end()) {
-      kept.push_back({l, tree.leaves[l], probability[l]});
+      kept.push_back({l, probability[l], nullptr});
     } else if (probability[l] > 0) {
-      into->leaf = make_pooled<const Leaf>(
-          merge(into->probability, *into->leaf, probability[l], leaf, background));
+      const Leaf& so_far = into->mixture ? *into->mixture : *tree.leaves[into->head];
+      into->mixture = make_pooled<const Leaf>(
+          merge(into->probability, so_far, probability[l], leaf, background));
       into->probability += probability[l];
     }
   }
-  tree.leaves.clear();
-  for (Kept& k : kept) tree.leaves.push_back(std::move(k.leaf));
+  PoolVector<std::shared_ptr<const Leaf>> leaves;
+  leaves.reserve(kept.size());
+  for (Kept& k : kept)
+    leaves.push_back(k.mixture ? std::move(k.mixture) : std::move(tree.leaves[k.head]));
+  tree.leaves = std::move(leaves);
   return number;
 }
 
@@ -79,13 +83,16 @@ const Leaf* Cluster::best_leaf(int anchor) const {
 }
 
 void merge_alike(Cluster& cluster, const Background& background) {
+  const auto has_versions = [](const AnchorTree& tree) { return tree.leaves.size() > 1; };
+  if (std::none_of(cluster.anchors.begin(), cluster.anchors.end(), has_versions)) return;
   const Scratch scratch;
-  ScratchVector<double> weight;
-  for (const Hypothesis& h : cluster.hypotheses) weight.push_back(std::exp(h.log_weight));
+  ScratchVector<double> weight(cluster.hypotheses.size());
+  std::transform(cluster.hypotheses.begin(), cluster.hypotheses.end(), weight.begin(),
+                 [](const Hypothesis& h) { return std::exp(h.log_weight); });
   bool any = false;
   for (std::size_t a = 0; a < cluster.anchors.size(); ++a) {
     AnchorTree& tree = cluster.anchors[a];
-    if (tree.leaves.size() < 2) continue;
+    if (!has_versions(tree)) continue;
     ScratchVector<double> probability(tree.leaves.size(), 0.0);
     for (std::size_t h = 0; h < weight.size(); ++h)
       if (const int leaf = cluster.hypotheses[h].leaf[a]; leaf != Hypothesis::kNoLeaf)
@@ -100,8 +107,8 @@ void merge_alike(Cluster& cluster, const Background& background) {
   if (any) merge_equal(cluster.hypotheses);
 }
 
-PoolVector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
-                                                 const Background& background, double least) {
+PoolVector<std::shared_ptr<const Cluster>> split(Cluster cluster, const Background& background,
+                                                 double least) {
   const Limits& limits = background.knowledge.limits;
   const bool bounded = limits.min_weight > 0 || limits.max_hypotheses > 0;
   const bool full = limits.max_hypotheses > 0 &&
@@ -111,19 +118,19 @@ PoolVector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
   const Cut cut = bounded ? Cut{floor, kNegligible, kUneven} : Cut{0, kRounding, 0};
   const Scratch scratch;
   PoolVector<std::shared_ptr<const Cluster>> parts;
-  for (Factor& factor : factorise(cluster.hypotheses, cut)) {
+  for (Factor& factor : factorise(std::move(cluster.hypotheses), cut)) {
     auto part = make_pooled<Cluster>();
     ScratchVector<int> used;
     for (std::size_t i = 0; i < factor.anchors.size(); ++i) {
-      const AnchorTree& whole = cluster.anchors[factor.anchors[i]];
+      AnchorTree& whole = cluster.anchors[factor.anchors[i]];
       ScratchVector<int> number(whole.leaves.size(), Hypothesis::kNoLeaf);
-      AnchorTree tree{whole.anchor, {}};
+      AnchorTree tree{std::move(whole.anchor), {}};
       for (Hypothesis& h : factor.hypotheses) {
         int& leaf = h.leaf[i];
         if (leaf == Hypothesis::kNoLeaf) continue;
         if (number[leaf] == Hypothesis::kNoLeaf) {
           number[leaf] = static_cast<int>(tree.leaves.size());
-          tree.leaves.push_back(whole.leaves[leaf]);
+          tree.leaves.push_back(std::move(whole.leaves[leaf]));
         }
         leaf = number[leaf];
       }

@@ -21,7 +21,7 @@ void merge_alike(Cluster& cluster, const Background& background);
 /// anchors that no hypothesis uses. Anchors keep their order; clusters stand in order of their
 /// first anchor. Where hypotheses are bounded at all, a dependence of that order is let go.
 /// `least`: hypotheses of less probability may have been cut off.
-PoolVector<std::shared_ptr<const Cluster>> split(const Cluster& cluster,
-                                                 const Background& background, double least = 0);
+PoolVector<std::shared_ptr<const Cluster>> split(Cluster cluster, const Background& background,
+                                                 double least = 0);
 
 }  // namespace anchord

@@ -37,21 +37,22 @@ struct Edge {
 void add_edges(const PredictedCluster& predicted, int cluster, int& anchors,
                ScratchVector<Edge>& edges) {
   const HypothesisSet& hypotheses = predicted.cluster->hypotheses;
+  ScratchVector<double> probability(hypotheses.size());
+  std::transform(hypotheses.begin(), hypotheses.end(), probability.begin(),
+                 [](const Hypothesis& h) { return std::exp(h.log_weight); });
   for (std::size_t a = 0; a < predicted.leaves.size(); ++a, ++anchors) {
     const auto& leaves = predicted.leaves[a];
     const auto has_gains = [](const PredictedLeaf& leaf) { return !leaf.gains.empty(); };
     if (std::none_of(leaves.begin(), leaves.end(), has_gains)) continue;
-    ScratchVector<double> nothing(leaves.size(), 0.0);  // P(leaf, it gives nothing)
+    ScratchVector<double> nothing(leaves.size(), 0.0);  // P(leaf), then: and it gives nothing
     double sum = 0;
-    for (const Hypothesis& h : hypotheses) {
-      const double p = std::exp(h.log_weight);
-      const int leaf = h.leaf[a];
-      if (leaf == Hypothesis::kNoLeaf) {
-        sum += p;
-      } else {
-        nothing[leaf] += p * std::exp(leaves[leaf].log_miss);
-        sum += p * std::exp(leaves[leaf].log_miss);
-      }
+    for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+      const int leaf = hypotheses[h].leaf[a];
+      (leaf == Hypothesis::kNoLeaf ? sum : nothing[leaf]) += probability[h];
+    }
+    for (std::size_t l = 0; l < leaves.size(); ++l) {
+      nothing[l] *= std::exp(leaves[l].log_miss);
+      sum += nothing[l];
     }
     const std::size_t first = edges.size();
     for (std::size_t l = 0; l < leaves.size(); ++l)

@@ -91,8 +91,7 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
   for (std::size_t a = 0; a < cluster->anchors.size(); ++a) {
     out.leaves[a].reserve(cluster->anchors[a].leaves.size());
     for (const auto& leaf : cluster->anchors[a].leaves) {
-      PredictedLeaf& predicted = out.leaves[a].emplace_back();
-      predicted.leaf = *leaf;
+      PredictedLeaf& predicted = out.leaves[a].emplace_back(*leaf);
       predict(predicted.leaf, frame.utime, background);
       predicted.shown = visibility.of(predicted.leaf, *frame.sensor, occlusion,
                                       cluster->anchors[a].anchor->birth);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <utility>
-
 #include "anchoring/leaf.h"
 #include "core/scratch.h"
 
@@ -12,16 +10,23 @@ class Nearby {
  public:
   Nearby(const MapFrame& frame, const Background& background);
 
-  /// The detections that log_likelihood() need be asked for, ascending: all whose x lies within
+  /// The detections that log_likelihood() need be asked for, ascending: all whose x and y lie within
   /// the gate of a behaviour model of a predicted leaf, and all that name an object. Valid until
   /// the next call.
   const ScratchVector<int>& to(const Leaf& leaf);
 
  private:
+  struct Place {
+    double x, y;
+    int detection;
+  };
+  void take(const Eigen::Vector3d& low, const Eigen::Vector3d& high, double variance_x,
+            double variance_y);
+
   const Background& background_;
-  ScratchVector<std::pair<double, int>> by_x_;  // position and number, ascending
+  ScratchVector<Place> by_x_;  // ascending
   ScratchVector<int> naming_, all_, found_;
-  double widest_ = 0;  // variance of a detection along x, the largest, m^2
+  double widest_x_ = 0, widest_y_ = 0;  // variances of a detection, the largest, m^2
 };
 
 }  // namespace anchord

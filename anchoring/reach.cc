@@ -29,12 +29,13 @@ double until_departed(const Leaf& leaf, double least, const Background& backgrou
     double stays = 0, loss = 0;
     for (int c = 0; c < background.classes(); ++c) {
       const double mu = background.object_class(c).departure_rate;
-      const double still = leaf.classes[c] * std::exp(-mu * t);
+      const double still = t > 0 ? leaf.classes[c] * std::exp(-mu * t) : leaf.classes[c];
       stays += still;
       loss += mu * still;
     }
     if (loss <= 0) return kInfinity;
     t += std::log(leaf.existence * stays / least) * stays / loss;
+    if (background.classes() == 1) break;  // its own tangent
   }
   return t;
 }

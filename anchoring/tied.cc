@@ -42,6 +42,7 @@ Tied tie(const ScratchVector<PredictedCluster>& clusters, const Limits& limits,
 AssociationProblem problem_of(const Tied& tied, const ScratchVector<int>& detections) {
   AssociationProblem problem;
   problem.detections = static_cast<int>(detections.size());
+  problem.gains.reserve(tied.leaves.size());
   for (const PredictedLeaf* leaf : tied.leaves) {
     auto& gains = problem.gains.emplace_back();
     for (const auto& [z, log_gain] : leaf->gains) {
@@ -50,15 +51,17 @@ AssociationProblem problem_of(const Tied& tied, const ScratchVector<int>& detect
         gains.push_back({static_cast<int>(at - detections.begin()), log_gain});
     }
   }
+  problem.parents.reserve(tied.hypotheses().size());
   for (const Hypothesis& h : tied.hypotheses()) {
-    AssociationProblem::Parent parent{h.log_weight, {}};
+    AssociationProblem::Parent& parent = problem.parents.emplace_back();
+    parent.log_weight = h.log_weight;
+    parent.leaves.reserve(h.leaf.size());
     for (std::size_t a = 0; a < h.leaf.size(); ++a) {
       if (h.leaf[a] == Hypothesis::kNoLeaf) continue;
       const int leaf = tied.first_leaf[a] + h.leaf[a];
       parent.leaves.push_back(leaf);
       parent.log_weight += tied.leaves[leaf]->log_miss;
     }
-    problem.parents.push_back(std::move(parent));
   }
   return problem;
 }

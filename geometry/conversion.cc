@@ -67,10 +67,12 @@ struct Journey {
   }
 };
 
-bool symmetric_and(const Eigen::Ref<const Eigen::MatrixXd>& covariance, double slack) {
+template <typename Square>
+bool symmetric_and(const Square& covariance, double slack) {
+  constexpr Eigen::Index n = Square::RowsAtCompileTime;
   if (!covariance.allFinite()) return false;
-  const Eigen::Index n = covariance.rows();
-  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(n, n);
+  using Matrix = Eigen::Matrix<double, n, n>;
+  Matrix correlation = Matrix::Identity();
   for (Eigen::Index i = 0; i < n; ++i) {
     if (covariance(i, i) < 0 || (slack == 0 && covariance(i, i) == 0)) return false;
     for (Eigen::Index j = 0; j < i; ++j) {
@@ -83,16 +85,14 @@ bool symmetric_and(const Eigen::Ref<const Eigen::MatrixXd>& covariance, double s
     correlation(i, i) += slack;
   }
   if (!correlation.allFinite()) return false;
-  const Eigen::LLT<Eigen::MatrixXd> factor(correlation);
+  const Eigen::LLT<Matrix> factor(correlation);
   return factor.info() == Eigen::Success;
 }
 
-bool positive_definite(const Eigen::Ref<const Eigen::MatrixXd>& covariance) {
-  return symmetric_and(covariance, 0);
-}
-
-bool positive_semidefinite(const Eigen::Ref<const Eigen::MatrixXd>& covariance) {
-  return symmetric_and(covariance, kRounding);
+/// Of its leading `dims` rows and columns.
+bool positive_definite(const Matrix3d& covariance, int dims) {
+  return dims == 2 ? symmetric_and(covariance.topLeftCorner<2, 2>(), 0)
+                   : symmetric_and(covariance, 0);
 }
 
 Matrix6d symmetric_covariance(const Pose& pose) {
@@ -143,7 +143,7 @@ Result<Gaussian> through_pose(Journey journey, const std::optional<Pose>& pose, 
     result.covariance.row(2).setZero();
     result.covariance.col(2).setZero();
   }
-  if (!result.mean.allFinite() || !positive_definite(result.covariance.topLeftCorner(dims, dims)))
+  if (!result.mean.allFinite() || !positive_definite(result.covariance, dims))
     return invalid(culprit,
                    "gives no finite, positive definite covariance in the map frame: too large, "
                    "too small or too unequal");
@@ -168,8 +168,9 @@ Status check_pose(const Pose& pose) {
   if (!finite(pose.covariance)) return invalid("pose.covariance", "must be finite numbers");
   const auto is_zero = [](double x) { return x == 0; };
   if (std::all_of(pose.covariance.begin(), pose.covariance.end(), is_zero)) return Done{};
-  if (!positive_semidefinite(
-          Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(pose.covariance.data())))
+  if (!symmetric_and(
+          Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(pose.covariance.data()),
+          kRounding))
     return invalid("pose.covariance", "must be symmetric and positive semidefinite");
   return Done{};
 }
@@ -179,17 +180,15 @@ Result<Gaussian> to_map(const CartesianMeasurement& measurement, const std::opti
   const auto n = static_cast<std::size_t>(dims);
   if (measurement.position.size() != n) return invalid("position", must_have(n));
   if (measurement.covariance.size() != n * n) return invalid("covariance", must_have(n * n));
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const Eigen::VectorXd> position(measurement.position.data(), dims);
-  if (!position.allFinite()) return invalid("position", "must be finite numbers");
-  const Eigen::MatrixXd covariance =
-      Eigen::Map<const RowMajor>(measurement.covariance.data(), dims, dims);
-  if (!positive_definite(covariance))
-    return invalid("covariance", "must be finite, symmetric and positive definite");
   Journey journey{Vector3d::Zero(), Vector3d::Zero(), Matrix3d::Zero()};
-  journey.mean.head(dims) = position;
+  for (int i = 0; i < dims; ++i) {
+    journey.mean[i] = measurement.position[i];
+    for (int j = 0; j < dims; ++j) journey.covariance(i, j) = measurement.covariance[i * n + j];
+  }
+  if (!journey.mean.allFinite()) return invalid("position", "must be finite numbers");
+  if (!positive_definite(journey.covariance, dims))
+    return invalid("covariance", "must be finite, symmetric and positive definite");
   journey.unbiased = journey.mean;
-  journey.covariance.topLeftCorner(dims, dims) = covariance;
   return through_pose(journey, pose, dims, "covariance");
 }
 

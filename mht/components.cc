@@ -135,8 +135,9 @@ int Components::known(const ScratchVector<int>& leaves) {
 
 /// Where these leaves' component stands in the table, or would.
 int* Components::slot_of(const ScratchVector<int>& leaves) {
-  std::size_t at = hash_of(leaves) % table_.size();
-  while (table_[at] >= 0 && components_[table_[at]].leaves != leaves) at = (at + 1) % table_.size();
+  const std::size_t last = table_.size() - 1;  // the size is a power of two
+  std::size_t at = hash_of(leaves) & last;
+  while (table_[at] >= 0 && components_[table_[at]].leaves != leaves) at = (at + 1) & last;
   return &table_[at];
 }
 
@@ -153,15 +154,13 @@ Component Components::made(const ScratchVector<int>& leaves) {
   const int n = static_cast<int>(component.detections.size());
   for (int i = 0; i < n; ++i) position_[component.detections[i]] = i;
 
-  ScratchVector<ScratchVector<PairGains::Entry>> rows(n);
-  for (std::size_t l = 0; l < leaves.size(); ++l)
+  ScratchVector<std::size_t> pairs(n, 0);
+  for (const int leaf : leaves)
+    for (const auto& gain : problem_.gains[leaf]) ++pairs[position_[gain.detection]];
+  PairGains gains(pairs, static_cast<int>(leaves.size()));
+  for (std::size_t l = leaves.size(); l-- > 0;)
     for (const auto& [z, gain] : problem_.gains[leaves[l]])
-      rows[position_[z]].push_back({static_cast<int>(l), gain});
-  PairGains gains(n, static_cast<int>(leaves.size()));
-  for (const auto& row : rows) {
-    gains.start_row();
-    for (const auto& [leaf, gain] : row) gains.add(leaf, gain);
-  }
+      gains.put(position_[z], --pairs[position_[z]], {static_cast<int>(l), gain});
   for (const int z : component.detections) position_[z] = -1;
 
   component.best_leaf.assign(n, Association::kNone);

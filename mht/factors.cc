@@ -34,8 +34,12 @@ std::uint64_t hash_of(const Change& change) {
 
 class Factoriser {
  public:
-  Factoriser(const HypothesisSet& set, const Cut& cut)
-      : set_(set), cut_(cut), parent_(set.front().leaf.size()), by_key_(set.size()) {
+  Factoriser(HypothesisSet whole, const Cut& cut)
+      : set_(std::move(whole)),
+        cut_(cut),
+        parent_(set_.front().leaf.size()),
+        by_key_(set_.size()) {
+    const HypothesisSet& set = set_;
     const std::size_t anchors = parent_.size();
     std::iota(parent_.begin(), parent_.end(), 0);
     for (std::size_t h = 0; h < set.size(); ++h) {
@@ -55,6 +59,7 @@ class Factoriser {
     }
   }
 
+  /// Takes the set: to be called once.
   PoolVector<Factor> factors() {
     PoolVector<Factor> out;
     ScratchVector<int> factor_of(parent_.size(), -1);  // per root
@@ -65,6 +70,10 @@ class Factoriser {
         out.emplace_back();
       }
       out[factor].anchors.push_back(a);
+    }
+    if (out.size() == 1) {
+      out.front().hypotheses = std::move(set_);
+      return out;
     }
     for (int h = 0; h < static_cast<int>(set_.size()); ++h) {
       if (changes(h).empty())
@@ -171,7 +180,7 @@ class Factoriser {
     return united;
   }
 
-  const HypothesisSet& set_;
+  HypothesisSet set_;
   Cut cut_;
   ScratchVector<int> parent_;
   ScratchVector<Change> changes_;  // of all hypotheses, from the best one
@@ -183,11 +192,15 @@ class Factoriser {
 
 }  // namespace
 
-PoolVector<Factor> factorise(const HypothesisSet& set, const Cut& cut) {
+PoolVector<Factor> factorise(HypothesisSet set, const Cut& cut) {
   if (set.empty() || set.front().leaf.empty()) return {};
-  if (set.front().leaf.size() == 1) return {{{0}, set}};
+  if (set.front().leaf.size() == 1) {
+    PoolVector<Factor> one;
+    one.push_back({{0}, std::move(set)});
+    return one;
+  }
   const Scratch scratch;
-  return Factoriser(set, cut).factors();
+  return Factoriser(std::move(set), cut).factors();
 }
 
 }  // namespace anchord

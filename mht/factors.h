@@ -32,6 +32,6 @@ struct Cut {
 /// the tail of the product.
 ///
 /// The set must be normalised, best first and without equal hypotheses.
-PoolVector<Factor> factorise(const HypothesisSet& set, const Cut& cut);
+PoolVector<Factor> factorise(HypothesisSet set, const Cut& cut);
 
 }  // namespace anchord

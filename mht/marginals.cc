@@ -16,34 +16,58 @@ constexpr double kLikely = 0.01;
 }  // namespace
 
 void estimate_probabilities(ScratchVector<Pairing>& pairings, int tracks, int detections) {
-  ScratchVector<double> message(pairings.size(), 1);  // detection to track
-  ScratchVector<double> of_track(tracks), of_detection(detections);
-  ScratchVector<double> to_detection(pairings.size());
-  double change = 1;
-  for (int round = 0; round < kMostRounds && change > kSettled; ++round) {
-    std::fill(of_track.begin(), of_track.end(), 1.0);
-    for (std::size_t e = 0; e < pairings.size(); ++e)
-      of_track[pairings[e].track] += pairings[e].weight * message[e];
-    std::fill(of_detection.begin(), of_detection.end(), 1.0);
-    for (std::size_t e = 0; e < pairings.size(); ++e) {
-      const Pairing& p = pairings[e];
-      // Without p itself; rounding must not make it less than "gives nothing".
-      const double others = std::max(of_track[p.track] - p.weight * message[e], 1.0);
-      to_detection[e] = p.weight / others;
-      of_detection[p.detection] += to_detection[e];
-    }
-    change = 0;
-    for (std::size_t e = 0; e < pairings.size(); ++e) {
-      const double others = std::max(of_detection[pairings[e].detection] - to_detection[e], 1.0);
-      change = std::max(change, std::abs(1 / others - message[e]) / message[e]);
-      message[e] = 1 / others;
-    }
+  ScratchVector<int> pairings_of_track(tracks, 0), pairings_of_detection(detections, 0);
+  for (const Pairing& p : pairings) {
+    ++pairings_of_track[p.track];
+    ++pairings_of_detection[p.detection];
   }
-  std::fill(of_track.begin(), of_track.end(), 1.0);
-  for (std::size_t e = 0; e < pairings.size(); ++e)
-    of_track[pairings[e].track] += pairings[e].weight * message[e];
-  for (std::size_t e = 0; e < pairings.size(); ++e)
-    pairings[e].probability = pairings[e].weight * message[e] / of_track[pairings[e].track];
+  // What the only pairing of a detection is told is always 1, and what the only pairing of a track
+  // tells is always its weight: neither is told again in each round.
+  struct Message {
+    int track, detection;
+    double weight, to_track, to_detection;
+  };
+  ScratchVector<Message> both_ways, to_track;
+  ScratchVector<double> settled_of_track(tracks, 1.0), settled_of_detection(detections, 1.0);
+  for (const auto& [track, detection, weight, probability] : pairings) {
+    const bool only_of_track = pairings_of_track[track] == 1;
+    if (pairings_of_detection[detection] == 1)
+      settled_of_track[track] += weight;
+    else
+      (only_of_track ? to_track : both_ways).push_back({track, detection, weight, 1, weight});
+    if (only_of_track) settled_of_detection[detection] += weight;
+  }
+  ScratchVector<double> of_track, of_detection;
+  bool settled = false;
+  const auto answer = [&](Message& m) {
+    const double others = std::max(of_detection[m.detection] - m.to_detection, 1.0);
+    const double next = 1 / others;
+    settled = settled && std::abs(next - m.to_track) <= kSettled * m.to_track;
+    m.to_track = next;
+  };
+  for (int round = 0; round < kMostRounds && !settled; ++round) {
+    of_track = settled_of_track;
+    for (const Message& m : both_ways) of_track[m.track] += m.weight * m.to_track;
+    of_detection = settled_of_detection;
+    for (Message& m : both_ways) {
+      // Without m itself; rounding must not make it less than "gives nothing".
+      m.to_detection = m.weight / std::max(of_track[m.track] - m.weight * m.to_track, 1.0);
+      of_detection[m.detection] += m.to_detection;
+    }
+    settled = true;
+    for (Message& m : both_ways) answer(m);
+    for (Message& m : to_track) answer(m);
+  }
+  of_track = settled_of_track;
+  for (const Message& m : both_ways) of_track[m.track] += m.weight * m.to_track;
+  for (const Message& m : to_track) of_track[m.track] += m.weight * m.to_track;
+  auto next_of_both = both_ways.begin(), next_to_track = to_track.begin();
+  for (Pairing& p : pairings) {
+    double told = 1;
+    if (pairings_of_detection[p.detection] > 1)
+      told = (pairings_of_track[p.track] == 1 ? next_to_track++ : next_of_both++)->to_track;
+    p.probability = p.weight * told / of_track[p.track];
+  }
 }
 
 void count_exchanges(ScratchVector<Pairing>& pairings, int tracks, int detections) {

@@ -22,6 +22,18 @@ class PairGains {
 
   PairGains(int detections, int leaves) : leaves_(leaves) { first_.reserve(detections + 1); }
 
+  /// With a row of so many pairs for each detection, in which put() puts them.
+  PairGains(const ScratchVector<std::size_t>& pairs, int leaves) : leaves_(leaves) {
+    first_.reserve(pairs.size());
+    std::size_t all = 0;
+    for (const std::size_t of_detection : pairs) {
+      first_.push_back(all);
+      all += of_detection;
+    }
+    entries_.resize(all);
+  }
+  void put(int z, std::size_t i, Entry pair) { entries_[first_[z] + i] = pair; }
+
   /// The next detection's row, to which add() adds.
   void start_row() { first_.push_back(entries_.size()); }
   void add(int leaf, double gain) { entries_.push_back({leaf, gain}); }

@@ -15,39 +15,39 @@ constexpr std::size_t kFew = 64;
 /// may choose, since the steps are prepared in time of their third power.
 constexpr int kMostSteps = 10000, kMostDetections = 64;
 
-bool few(const PairGains& gains) {
+/// How many there are at most if each detection may choose freely; more than kFew count as kFew + 1.
+std::size_t most_of(const PairGains& gains) {
   std::size_t most = 1;
-  for (int z = 0; z < gains.detections() && most <= kFew; ++z)
+  for (int z = 0; z < gains.detections(); ++z) {
     most *= 1 + (gains.of(z).end() - gains.of(z).begin());
-  return most <= kFew;
+    if (most > kFew) return kFew + 1;
+  }
+  return most;
 }
 
-/// Calls `found(gain)` for every assignment of the detections from `z` on, while it is `chosen`.
+/// Calls `found(gain)` for every assignment of the detections from `z` on, with the choices of all
+/// in `chosen`.
 template <typename Found>
-void visit_all(const PairGains& gains, SmallScratchVector<int, 8>& chosen, double gain,
-               const Found& found) {
-  const int z = static_cast<int>(chosen.size());
+void visit_all(const PairGains& gains, int z, int* chosen, double gain, const Found& found) {
   if (z == gains.detections()) {
     found(gain);
     return;
   }
-  chosen.push_back(Assignment::kNone);
-  visit_all(gains, chosen, gain, found);
+  chosen[z] = Assignment::kNone;
+  visit_all(gains, z + 1, chosen, gain, found);
   for (const auto& pair : gains.of(z)) {
-    const auto end = chosen.begin() + z;
-    if (std::find(chosen.begin(), end, pair.leaf) != end) continue;
+    if (std::find(chosen, chosen + z, pair.leaf) != chosen + z) continue;
     chosen[z] = pair.leaf;
-    visit_all(gains, chosen, gain + pair.gain, found);
+    visit_all(gains, z + 1, chosen, gain + pair.gain, found);
   }
-  chosen.pop_back();
 }
 
 }  // namespace
 
 RankedAssignments::RankedAssignments(PairGains gains, double most_loss, bool few_are_near)
     : gains_(std::move(gains)), most_loss_(most_loss) {
-  if (few(gains_)) {
-    rank_all();
+  if (const std::size_t most = most_of(gains_); most <= kFew) {
+    rank_all(most);
     return;
   }
   Assignment best(gains_);
@@ -58,9 +58,11 @@ RankedAssignments::RankedAssignments(PairGains gains, double most_loss, bool few
   branch(gain, 0, {}, 0);
 }
 
-void RankedAssignments::rank_all() {
-  SmallScratchVector<int, 8> chosen;
-  visit_all(gains_, chosen, 0, [&](double gain) {
+void RankedAssignments::rank_all(std::size_t most) {
+  ScratchVector<int> chosen(gains_.detections());
+  ranked_.reserve(most);
+  choices_.reserve(most * chosen.size());
+  visit_all(gains_, 0, chosen.data(), 0, [&](double gain) {
     ranked_.push_back({gain, choices_.size()});
     choices_.insert(choices_.end(), chosen.begin(), chosen.end());
   });
