@@ -123,7 +123,10 @@ Result<Gaussian> read_position(const Detection& from, const std::optional<Pose>&
     filled.variance = sensor.polar_noise;
     return to_map(filled, pose, dims);
   }
-  CartesianMeasurement filled = std::get<CartesianMeasurement>(from.measurement);
+  const auto& cartesian = std::get<CartesianMeasurement>(from.measurement);
+  if (cartesian.position.size() == static_cast<std::size_t>(dims) && !cartesian.covariance.empty())
+    return to_map(cartesian, pose, dims);
+  CartesianMeasurement filled = cartesian;
   // A 2-D world takes 3-D reports from encodings that always carry three numbers.
   if (dims == 2 && filled.position.size() == 3 && filled.covariance.size() != 9)
     filled.position.pop_back();

@@ -27,7 +27,7 @@ void Nearby::take(const Eigen::Vector3d& low, const Eigen::Vector3d& high, doubl
   const double reach_x = std::sqrt(gate * (variance_x + widest_x_));
   const double reach_y = std::sqrt(gate * (variance_y + widest_y_));
   for (auto at = std::lower_bound(by_x_.begin(), by_x_.end(), low.x() - reach_x,
-                                  [](const Place& place, double x) { return place.x < x; });
+                                  [](const Place&place, double x) { return place.x < x; });
        at != by_x_.end() && at->x <= high.x() + reach_x; ++at)
     if (at->y >= low.y() - reach_y && at->y <= high.y() + reach_y) found_.push_back(at->detection);
 }

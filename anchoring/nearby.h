@@ -10,9 +10,9 @@ class Nearby {
  public:
   Nearby(const MapFrame& frame, const Background& background);
 
-  /// The detections that log_likelihood() need be asked for, ascending: all whose x and y lie within
-  /// the gate of a behaviour model of a predicted leaf, and all that name an object. Valid until
-  /// the next call.
+  /// The detections that log_likelihood() need be asked for, ascending: all whose x and y lie
+  /// within the gate of a behaviour model of a predicted leaf, and all that name an object. Valid
+  /// until the next call.
   const ScratchVector<int>& to(const Leaf& leaf);
 
  private:

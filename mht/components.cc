@@ -128,7 +128,7 @@ int Components::known(const ScratchVector<int>& leaves) {
   int* slot = slot_of(leaves);
   if (*slot < 0) {
     *slot = static_cast<int>(components_.size());
-    components_.push_back(made(leaves));
+    make(leaves, components_.emplace_back());
   }
   return *slot;
 }
@@ -141,8 +141,7 @@ int* Components::slot_of(const ScratchVector<int>& leaves) {
   return &table_[at];
 }
 
-Component Components::made(const ScratchVector<int>& leaves) {
-  Component component;
+void Components::make(const ScratchVector<int>& leaves, Component& component) {
   component.leaves = leaves;
   for (const int leaf : leaves)
     for (const auto& gain : problem_.gains[leaf])
@@ -167,15 +166,15 @@ Component Components::made(const ScratchVector<int>& leaves) {
   if (n <= kManyDetections) {
     component.blocks.push_back({component.detections, leaves, {std::move(gains), most_loss_}});
     component.best = component.blocks.back().ranked.gain(0);
-    return component;
+    return;
   }
   large_ = true;
   Assignment best(gains);
   component.best = best.gain(gains);
   for (int i = 0; i < n; ++i)
     if (best.choice(i) != Assignment::kNone) component.best_leaf[i] = leaves[best.choice(i)];
-  component.solved = {std::move(gains), std::move(best), std::nullopt};
-  return component;
+  component.solved =
+      &solved_.emplace_back(Component::Solved{std::move(gains), std::move(best), std::nullopt});
 }
 
 double Components::first_reach() {

@@ -32,7 +32,7 @@ struct Component {
     Assignment best;
     std::optional<ChangeLosses> losses;  ///< within the reach that was last asked for
   };
-  std::optional<Solved> solved;
+  Solved* solved = nullptr;  ///< null where there are few
 
   /// ln of the sum of e^gain over all its assignments, as far as they have been ranked.
   double log_total() const;
@@ -65,12 +65,13 @@ class Components {
   int find(int z);
   int known(const ScratchVector<int>& leaves);
   int* slot_of(const ScratchVector<int>& leaves);
-  Component made(const ScratchVector<int>& leaves);
+  void make(const ScratchVector<int>& leaves, Component& component);
 
   const AssociationProblem& problem_;
   double most_loss_;
   bool large_ = false;
   std::deque<Component, ScratchAllocator<Component>> components_;
+  std::deque<Component::Solved, ScratchAllocator<Component::Solved>> solved_;
   ScratchVector<int> table_;     // of components by their leaves' hash; -1 where there is none
   ScratchVector<int> parent_;    // of a detection, among those that share a leaf
   ScratchVector<int> position_;  // of a detection in the component that is made

@@ -35,10 +35,7 @@ std::uint64_t hash_of(const Change& change) {
 class Factoriser {
  public:
   Factoriser(HypothesisSet whole, const Cut& cut)
-      : set_(std::move(whole)),
-        cut_(cut),
-        parent_(set_.front().leaf.size()),
-        by_key_(set_.size()) {
+      : set_(std::move(whole)), cut_(cut), parent_(set_.front().leaf.size()), by_key_(set_.size()) {
     const HypothesisSet& set = set_;
     const std::size_t anchors = parent_.size();
     std::iota(parent_.begin(), parent_.end(), 0);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace anchord {
 namespace {
@@ -13,6 +15,92 @@ constexpr int kMostRounds = 100;
 /// A pairing that is less probable takes part in no exchange that counts.
 constexpr double kLikely = 0.01;
 
+/// What a detection and a track tell each other of their pairing.
+struct Message {
+  int track, detection;
+  bool both_ways;  // else only the detection has news
+  double weight, to_track, to_detection;
+};
+
+/// The messages between tracks and detections that have several pairings.
+class Messages {
+ public:
+  Messages(int tracks, int detections)
+      : tracks_(tracks),
+        part_(tracks + detections),
+        of_track_(tracks),
+        of_detection_(detections),
+        to_track_(tracks, 1.0),
+        to_detection_(detections, 1.0) {
+    std::iota(part_.begin(), part_.end(), 0);
+  }
+
+  void add(const Message& message) {
+    messages_.push_back(message);
+    const int a = find(message.track), b = find(tracks_ + message.detection);
+    part_[std::max(a, b)] = std::min(a, b);
+  }
+  /// What never changes.
+  void add_to_track(int track, double weight) { to_track_[track] += weight; }
+  void add_to_detection(int detection, double weight) { to_detection_[detection] += weight; }
+
+  /// What each track is told in the end, in the order of add(). What hangs together settles on its
+  /// own: a loop of near certain pairings does not keep all others going.
+  ScratchVector<double> settle() {
+    ScratchVector<std::pair<int, int>> by_part;
+    for (const Message& m : messages_)
+      by_part.push_back({find(m.track), static_cast<int>(by_part.size())});
+    std::sort(by_part.begin(), by_part.end());
+    ScratchVector<Message> part;
+    ScratchVector<double> told(messages_.size());
+    for (std::size_t i = 0; i < by_part.size();) {
+      part.clear();
+      const std::size_t first = i;
+      for (; i < by_part.size() && by_part[i].first == by_part[first].first; ++i)
+        part.push_back(messages_[by_part[i].second]);
+      for (int round = 0; round < kMostRounds && !tell(part); ++round) {
+      }
+      for (std::size_t k = first; k < i; ++k) told[by_part[k].second] = part[k - first].to_track;
+    }
+    return told;
+  }
+
+ private:
+  int find(int i) {
+    while (part_[i] != i) i = part_[i] = part_[part_[i]];
+    return i;
+  }
+
+  /// One round. Returns whether next to nothing has changed.
+  bool tell(ScratchVector<Message>& part) {
+    for (const Message& m : part) {
+      of_track_[m.track] = to_track_[m.track];
+      of_detection_[m.detection] = to_detection_[m.detection];
+    }
+    for (const Message& m : part)
+      if (m.both_ways) of_track_[m.track] += m.weight * m.to_track;
+    for (Message& m : part) {
+      if (!m.both_ways) continue;
+      // Without m itself; rounding must not make it less than "gives nothing".
+      m.to_detection = m.weight / std::max(of_track_[m.track] - m.weight * m.to_track, 1.0);
+      of_detection_[m.detection] += m.to_detection;
+    }
+    bool settled = true;
+    for (Message& m : part) {
+      const double next = 1 / std::max(of_detection_[m.detection] - m.to_detection, 1.0);
+      settled = settled && std::abs(next - m.to_track) <= kSettled * m.to_track;
+      m.to_track = next;
+    }
+    return settled;
+  }
+
+  int tracks_;
+  ScratchVector<int> part_;  // of a track, and behind them of a detection: those that hang together
+  ScratchVector<Message> messages_;
+  ScratchVector<double> of_track_, of_detection_;  // sums of a round
+  ScratchVector<double> to_track_, to_detection_;  // of that what never changes
+};
+
 }  // namespace
 
 void estimate_probabilities(ScratchVector<Pairing>& pairings, int tracks, int detections) {
@@ -23,51 +111,23 @@ void estimate_probabilities(ScratchVector<Pairing>& pairings, int tracks, int de
   }
   // What the only pairing of a detection is told is always 1, and what the only pairing of a track
   // tells is always its weight: neither is told again in each round.
-  struct Message {
-    int track, detection;
-    double weight, to_track, to_detection;
-  };
-  ScratchVector<Message> both_ways, to_track;
-  ScratchVector<double> settled_of_track(tracks, 1.0), settled_of_detection(detections, 1.0);
+  Messages messages(tracks, detections);
   for (const auto& [track, detection, weight, probability] : pairings) {
     const bool only_of_track = pairings_of_track[track] == 1;
+    if (only_of_track) messages.add_to_detection(detection, weight);
     if (pairings_of_detection[detection] == 1)
-      settled_of_track[track] += weight;
+      messages.add_to_track(track, weight);
     else
-      (only_of_track ? to_track : both_ways).push_back({track, detection, weight, 1, weight});
-    if (only_of_track) settled_of_detection[detection] += weight;
+      messages.add({track, detection, !only_of_track, weight, 1, weight});
   }
-  ScratchVector<double> of_track, of_detection;
-  bool settled = false;
-  const auto answer = [&](Message& m) {
-    const double others = std::max(of_detection[m.detection] - m.to_detection, 1.0);
-    const double next = 1 / others;
-    settled = settled && std::abs(next - m.to_track) <= kSettled * m.to_track;
-    m.to_track = next;
-  };
-  for (int round = 0; round < kMostRounds && !settled; ++round) {
-    of_track = settled_of_track;
-    for (const Message& m : both_ways) of_track[m.track] += m.weight * m.to_track;
-    of_detection = settled_of_detection;
-    for (Message& m : both_ways) {
-      // Without m itself; rounding must not make it less than "gives nothing".
-      m.to_detection = m.weight / std::max(of_track[m.track] - m.weight * m.to_track, 1.0);
-      of_detection[m.detection] += m.to_detection;
-    }
-    settled = true;
-    for (Message& m : both_ways) answer(m);
-    for (Message& m : to_track) answer(m);
-  }
-  of_track = settled_of_track;
-  for (const Message& m : both_ways) of_track[m.track] += m.weight * m.to_track;
-  for (const Message& m : to_track) of_track[m.track] += m.weight * m.to_track;
-  auto next_of_both = both_ways.begin(), next_to_track = to_track.begin();
+  const ScratchVector<double> told = messages.settle();
+  ScratchVector<double> of_track(tracks, 1.0);
+  auto next = told.begin();
   for (Pairing& p : pairings) {
-    double told = 1;
-    if (pairings_of_detection[p.detection] > 1)
-      told = (pairings_of_track[p.track] == 1 ? next_to_track++ : next_of_both++)->to_track;
-    p.probability = p.weight * told / of_track[p.track];
+    p.probability = p.weight * (pairings_of_detection[p.detection] == 1 ? 1.0 : *next++);
+    of_track[p.track] += p.probability;
   }
+  for (Pairing& p : pairings) p.probability /= of_track[p.track];
 }
 
 void count_exchanges(ScratchVector<Pairing>& pairings, int tracks, int detections) {

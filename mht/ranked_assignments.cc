@@ -15,7 +15,8 @@ constexpr std::size_t kFew = 64;
 /// may choose, since the steps are prepared in time of their third power.
 constexpr int kMostSteps = 10000, kMostDetections = 64;
 
-/// How many there are at most if each detection may choose freely; more than kFew count as kFew + 1.
+/// How many there are at most if each detection may choose freely; more than kFew count as kFew
+/// + 1.
 std::size_t most_of(const PairGains& gains) {
   std::size_t most = 1;
   for (int z = 0; z < gains.detections(); ++z) {
@@ -26,20 +27,40 @@ std::size_t most_of(const PairGains& gains) {
 }
 
 /// Calls `found(gain)` for every assignment of the detections from `z` on, with the choices of all
-/// in `chosen`.
+/// in `chosen`; those that gain less than `least` may be left out. `most` is per detection what it
+/// and those after it may gain together.
 template <typename Found>
-void visit_all(const PairGains& gains, int z, int* chosen, double gain, const Found& found) {
+void visit_all(const PairGains& gains, int z, int* chosen, double gain, double least,
+               const double* most, const Found& found) {
   if (z == gains.detections()) {
     found(gain);
     return;
   }
-  chosen[z] = Assignment::kNone;
-  visit_all(gains, z + 1, chosen, gain, found);
-  for (const auto& pair : gains.of(z)) {
-    if (std::find(chosen, chosen + z, pair.leaf) != chosen + z) continue;
-    chosen[z] = pair.leaf;
-    visit_all(gains, z + 1, chosen, gain + pair.gain, found);
+  if (gain + most[z + 1] >= least) {
+    chosen[z] = Assignment::kNone;
+    visit_all(gains, z + 1, chosen, gain, least, most, found);
   }
+  for (const auto& pair : gains.of(z)) {
+    if (gain + pair.gain + most[z + 1] < least ||
+        std::find(chosen, chosen + z, pair.leaf) != chosen + z)
+      continue;
+    chosen[z] = pair.leaf;
+    visit_all(gains, z + 1, chosen, gain + pair.gain, least, most, found);
+  }
+}
+
+/// What an assignment gains in which each detection in turn takes the best that is left.
+double greedy_gain(const PairGains& gains, int* chosen) {
+  double sum = 0;
+  for (int z = 0; z < gains.detections(); ++z) {
+    PairGains::Entry best{Assignment::kNone, 0};
+    for (const auto& pair : gains.of(z))
+      if (pair.gain > best.gain && std::find(chosen, chosen + z, pair.leaf) == chosen + z)
+        best = pair;
+    chosen[z] = best.leaf;
+    sum += best.gain;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -59,10 +80,18 @@ RankedAssignments::RankedAssignments(PairGains gains, double most_loss, bool few
 }
 
 void RankedAssignments::rank_all(std::size_t most) {
-  ScratchVector<int> chosen(gains_.detections());
+  const int n = gains_.detections();
+  ScratchVector<int> chosen(n);
+  ScratchVector<double> most_from(n + 1, 0.0);
+  for (int z = n; z-- > 0;) {
+    for (const auto& pair : gains_.of(z)) most_from[z] = std::max(most_from[z], pair.gain);
+    most_from[z] += most_from[z + 1];
+  }
   ranked_.reserve(most);
-  choices_.reserve(most * chosen.size());
-  visit_all(gains_, 0, chosen.data(), 0, [&](double gain) {
+  choices_.reserve(most * n);
+  // Room for rounding: sort() decides.
+  const double least = greedy_gain(gains_, chosen.data()) - most_loss_ - 1e-6;
+  visit_all(gains_, 0, chosen.data(), 0, least, most_from.data(), [&](double gain) {
     ranked_.push_back({gain, choices_.size()});
     choices_.insert(choices_.end(), chosen.begin(), chosen.end());
   });
