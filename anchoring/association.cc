@@ -146,6 +146,7 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
                      const ScratchVector<Origin>& origins, const Visibility& visibility,
                      const Occlusion& occlusion, const Background& background, const Belief& belief,
                      const Allowance& allowance) {
+  const Scratch scratch;  // each group in the memory that the last one has left warm
   const Limits& limits = background.knowledge.limits;
   const Tied tied = tie(clusters, limits, allowance.parents);
   const AssociationProblem problem = problem_of(tied, detections);

@@ -19,14 +19,14 @@ namespace {
 /// hypotheses of a cluster are bounded.
 constexpr double kNegligible = 1e-4;
 
-double log_gain(const PredictedLeaf& predicted, const Anchor& anchor, const MapDetection& z,
-                const Origin& origin, const Sensor& sensor, const Background& background) {
+double log_gain(const PredictedLeaf& predicted, double log_existence, const Anchor& anchor,
+                const MapDetection& z, const Origin& origin, const Sensor& sensor,
+                const Background& background) {
   const bool named = !z.object.empty() && anchor.is_called(z.object);
   const Leaf& leaf = predicted.leaf;
-  if (leaf.existence <= 0) return kLogZero;
   const double log_g = log_likelihood(leaf, z, predicted.shown, !named, background);
   if (log_g == kLogZero) return kLogZero;
-  double gain = std::log(leaf.existence) - predicted.log_miss - origin.log_weight + log_g;
+  double gain = log_existence - predicted.log_miss - origin.log_weight + log_g;
   if (!z.object.empty() && !named) gain += std::log(sensor.identity_doubt);
   // The world in which z is new or clutter instead outweighs this one by the gain: what lies
   // below min_weight here cannot be above it among all hypotheses.
@@ -101,9 +101,11 @@ PredictedCluster predict(std::shared_ptr<const Cluster> cluster, const MapFrame&
       // Where two steps are not one long one, every frame must be a step.
       out.stepped = out.stepped || background.dynamics[leaf->model_class].exchanges ||
                     predicted.leaf.model_class != leaf->model_class;
+      if (predicted.leaf.existence <= 0) continue;
+      const double log_existence = std::log(predicted.leaf.existence);
       for (const int z : nearby.to(predicted.leaf)) {
-        const double gain = log_gain(predicted, *cluster->anchors[a].anchor, frame.detections[z],
-                                     origins[z], *frame.sensor, background);
+        const double gain = log_gain(predicted, log_existence, *cluster->anchors[a].anchor,
+                                     frame.detections[z], origins[z], *frame.sensor, background);
         if (gain == kLogZero) continue;
         predicted.gains.push_back({z, gain});
         out.gated[z] = 1;

@@ -245,7 +245,8 @@ double log_likelihood(const Leaf& leaf, const MapDetection& z, const LeafVisibil
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
     if (!counts(m)) continue;
     const PositionFit f = position_fit(leaf.models[m], z, background);
-    const double log_weight = std::log(leaf.models[m].weight * shown.factor[m]) + f.log_likelihood;
+    const double weight = leaf.models[m].weight * shown.factor[m];
+    const double log_weight = (weight == 1 ? 0 : std::log(weight)) + f.log_likelihood;
     if (models[m].shares())
       log_shared =
           log_add(log_shared, log_weight + log_shared_ratio(leaf, z, models[m], background));

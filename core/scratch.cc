@@ -22,18 +22,21 @@ struct ScratchBlocks {
     blocks.push_back({std::unique_ptr<std::byte[]>(new std::byte[size]), size});
     set_used(0);
   }
-  /// What was taken since goes. If all goes, one block is left, large enough for all of it.
+  /// What was taken since goes. If all goes, one block is left, large enough for all that there ever
+  /// was at a time.
   void go_back(std::size_t block, std::size_t its_used) {
-    if (block == 0 && its_used == 0 && blocks.size() > 1) {
-      const std::size_t room = all();
+    if (blocks.size() > 1) most_ = std::max(most_, all());
+    if (block <= 1 && its_used == 0 && !blocks.empty() && blocks.front().size < most_) {
       blocks.clear();
-      add(room);
+      add(most_);
     }
     while (blocks.size() > std::max<std::size_t>(block, 1)) blocks.pop_back();
     if (!blocks.empty()) set_used(its_used);
   }
 
  private:
+  std::size_t most_ = 0;  // of all()
+
   void set_used(std::size_t used) {
     std::byte* const begin = blocks.back().memory.get();
     Scratch::free_ = {begin + used, begin + blocks.back().size};

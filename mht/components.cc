@@ -104,17 +104,19 @@ ScratchVector<int> Components::of(const AssociationProblem::Parent& parent) {
     for (std::size_t i = 1; i < gains.size(); ++i)
       parent_[find(gains[i].detection)] = find(gains[0].detection);
   }
-  ScratchVector<std::pair<int, int>> by_root;  // leaves that have gains
+  by_root_.clear();
   for (const int leaf : parent.leaves)
     if (!problem_.gains[leaf].empty())
-      by_root.push_back({find(problem_.gains[leaf][0].detection), leaf});
-  std::sort(by_root.begin(), by_root.end());
-  ScratchVector<int> components, leaves;
-  for (std::size_t i = 0; i < by_root.size(); ++i) {
-    leaves.push_back(by_root[i].second);
-    if (i + 1 < by_root.size() && by_root[i + 1].first == by_root[i].first) continue;
-    components.push_back(known(leaves));
-    leaves.clear();
+      by_root_.push_back({find(problem_.gains[leaf][0].detection), leaf});
+  std::sort(by_root_.begin(), by_root_.end());
+  ScratchVector<int> components;
+  components.reserve(by_root_.size());
+  together_.clear();
+  for (std::size_t i = 0; i < by_root_.size(); ++i) {
+    together_.push_back(by_root_[i].second);
+    if (i + 1 < by_root_.size() && by_root_[i + 1].first == by_root_[i].first) continue;
+    components.push_back(known(together_));
+    together_.clear();
   }
   return components;
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include "mht/association_problem.h"
 #include "mht/change_losses.h"
@@ -75,6 +76,9 @@ class Components {
   ScratchVector<int> table_;     // of components by their leaves' hash; -1 where there is none
   ScratchVector<int> parent_;    // of a detection, among those that share a leaf
   ScratchVector<int> position_;  // of a detection in the component that is made
+  // Of a parent: its leaves that have gains, by the root of their detections; those of one root.
+  ScratchVector<std::pair<int, int>> by_root_;
+  ScratchVector<int> together_;
 };
 
 }  // namespace anchord

@@ -39,6 +39,10 @@ class Factoriser {
     const HypothesisSet& set = set_;
     const std::size_t anchors = parent_.size();
     std::iota(parent_.begin(), parent_.end(), 0);
+    first_.reserve(set.size() + 1);
+    keys_.reserve(set.size());
+    weights_.reserve(set.size());
+    ScratchVector<char> varies(anchors, 0);
     for (std::size_t h = 0; h < set.size(); ++h) {
       first_.push_back(changes_.size());
       std::uint64_t key = 0;
@@ -46,13 +50,15 @@ class Factoriser {
         if (set[h].leaf[a] != set[0].leaf[a]) {
           changes_.push_back({static_cast<int>(a), set[h].leaf[a]});
           key ^= hash_of(changes_.back());
+          varies[a] = 1;
         }
       keys_.push_back(key);
       weights_.push_back(std::exp(set[h].log_weight));
       by_key_.insert(key, static_cast<int>(h));
     }
     first_.push_back(changes_.size());
-    while (unite_unexplained() || unite_exclusive()) {
+    groups_ = static_cast<int>(std::count(varies.begin(), varies.end(), 1));
+    while (groups_ > 1 && (unite_unexplained() || (groups_ > 1 && unite_exclusive()))) {
     }
   }
 
@@ -95,6 +101,7 @@ class Factoriser {
   }
   void unite(int a, int b) {
     a = find(a), b = find(b);
+    if (a != b) --groups_;
     parent_[std::max(a, b)] = std::min(a, b);
   }
 
@@ -180,6 +187,7 @@ class Factoriser {
   HypothesisSet set_;
   Cut cut_;
   ScratchVector<int> parent_;
+  int groups_ = 0;                 // of anchors that vary
   ScratchVector<Change> changes_;  // of all hypotheses, from the best one
   ScratchVector<std::size_t> first_;
   ScratchVector<std::uint64_t> keys_;

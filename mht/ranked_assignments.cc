@@ -67,6 +67,10 @@ double greedy_gain(const PairGains& gains, int* chosen) {
 
 RankedAssignments::RankedAssignments(PairGains gains, double most_loss, bool few_are_near)
     : gains_(std::move(gains)), most_loss_(most_loss) {
+  if (gains_.detections() == 1) {
+    rank_one();
+    return;
+  }
   if (const std::size_t most = most_of(gains_); most <= kFew) {
     rank_all(most);
     return;
@@ -77,6 +81,20 @@ RankedAssignments::RankedAssignments(PairGains gains, double most_loss, bool few
   rank(best, gain);
   solved_.push_back(std::move(best));
   branch(gain, 0, {}, 0);
+}
+
+void RankedAssignments::rank_one() {
+  const auto row = gains_.of(0);
+  const std::size_t most = 1 + (row.end() - row.begin());
+  ranked_.reserve(most);
+  choices_.reserve(most);
+  const auto add = [&](double gain, int choice) {
+    ranked_.push_back({gain, choices_.size()});
+    choices_.push_back(choice);
+  };
+  add(0, Assignment::kNone);
+  for (const auto& pair : row) add(pair.gain, pair.leaf);
+  sort();
 }
 
 void RankedAssignments::rank_all(std::size_t most) {

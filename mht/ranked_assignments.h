@@ -44,6 +44,7 @@ class RankedAssignments {
       return bound != other.bound ? bound < other.bound : part > other.part;
     }
   };
+  void rank_one();
   void rank_all(std::size_t most);
   void sort();
   bool rank_near(const Assignment& best, double gain);

@@ -53,5 +53,21 @@ TEST(Allocation, AWarmEngineAsksTheSystemForNextToNone) {
   EXPECT_LT(warm, 300u / 2) << "in 300 frames";
 }
 
+TEST(Allocation, WhatAScratchOnceTookIsThereTheNextTime) {
+#ifdef ANCHORD_SANITIZED
+  GTEST_SKIP() << "with the sanitizer each piece is on its own";
+#endif
+  const auto work = [] {
+    const Scratch outer;
+    const ScratchVector<char> little(1000);
+    const Scratch inner;
+    const ScratchVector<char> much(1 << 23);  // more than any block so far
+  };
+  work();
+  const std::size_t before = allocations;
+  work();
+  EXPECT_EQ(allocations, before);
+}
+
 }  // namespace
 }  // namespace anchord
