@@ -83,6 +83,13 @@ double update_models(Leaf& leaf, const MapDetection& z, const LeafVisibility& sh
                      const Sensor& sensor, const Background& background) {
   const int dims = background.dims;
   const auto& models = background.object_class(leaf.model_class).models;
+  if (leaf.models.size() == 1 && !models[0].shares())
+    if (auto* kinematic = std::get_if<Kinematic>(&leaf.models[0].density)) {
+      update(*kinematic, z.position, dims);
+      keep_above(*kinematic, sensor.pose_floor, dims);
+      leaf.models[0].weight = 1;
+      return 1;
+    }
   const int target = background.dynamics[leaf.model_class].first_detectable;
   boost::container::small_vector<double, 4> log_weight(leaf.models.size(), kLogZero);
   const double log_own = background.shares ? log_attribute_ratio(leaf, z, background) : 0;

@@ -22,8 +22,8 @@ struct ScratchBlocks {
     blocks.push_back({std::unique_ptr<std::byte[]>(new std::byte[size]), size});
     set_used(0);
   }
-  /// What was taken since goes. If all goes, one block is left, large enough for all that there ever
-  /// was at a time.
+  /// What was taken since goes. If all goes, one block is left, large enough for all that there
+  /// ever was at a time.
   void go_back(std::size_t block, std::size_t its_used) {
     if (blocks.size() > 1) most_ = std::max(most_, all());
     if (block <= 1 && its_used == 0 && !blocks.empty() && blocks.front().size < most_) {

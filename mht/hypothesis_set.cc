@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <queue>
+#include <utility>
 
 #include "core/hash_table.h"
 #include "core/log_probability.h"
@@ -22,6 +23,7 @@ std::uint64_t hash_of(const Hypothesis& h) {
 }  // namespace
 
 double normalise(HypothesisSet& set) {
+  if (set.size() == 1) return std::exchange(set.front().log_weight, 0);
   const auto better = [](const Hypothesis& a, const Hypothesis& b) {
     return a.log_weight > b.log_weight;
   };
@@ -42,6 +44,10 @@ double normalise(HypothesisSet& set) {
 }
 
 void merge_equal(HypothesisSet& set) {
+  if (set.size() == 1) {
+    normalise(set);
+    return;
+  }
   const Scratch scratch;
   HashTable by_hash(set.size());
   std::size_t kept = 0;

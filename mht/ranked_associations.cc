@@ -27,6 +27,9 @@ RankedAssociations::RankedAssociations(const AssociationProblem& problem, double
       log_least_(log_least),
       reach_(-log_least),
       components_(problem, -log_least) {
+  choices_.reserve(problem_.parents.size());
+  nodes_.reserve(2 * problem_.parents.size());
+  heap_.reserve(2 * problem_.parents.size());
   for (const auto& parent : problem_.parents) {
     Choices& choices = choices_.emplace_back();
     choices.best = parent.log_weight;
