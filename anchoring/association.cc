@@ -153,7 +153,13 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
   const std::size_t old_anchors = tied.anchors.size();
 
   Cluster joint;
-  for (const auto& anchor : tied.anchors) joint.anchors.push_back({anchor, {}});
+  joint.anchors.reserve(old_anchors + detections.size());
+  for (std::size_t a = 0; a < old_anchors; ++a) {
+    joint.anchors.push_back({tied.anchors[a], {}});
+    const bool is_last = a + 1 == old_anchors;
+    const std::size_t end = is_last ? tied.leaves.size() : tied.first_leaf[a + 1];
+    joint.anchors[a].leaves.reserve(2 * (end - tied.first_leaf[a]));  // given something, or not
+  }
   ScratchVector<int> anchor_of(detections.size(), -1);  // that a detection starts
   for (std::size_t z = 0; z < detections.size(); ++z) {
     auto leaf = birth(detections[z], frame, origins[detections[z]], belief.frames, background);

@@ -120,11 +120,13 @@ PoolVector<std::shared_ptr<const Cluster>> split(Cluster cluster, const Backgrou
   PoolVector<std::shared_ptr<const Cluster>> parts;
   for (Factor& factor : factorise(std::move(cluster.hypotheses), cut)) {
     auto part = make_pooled<Cluster>();
+    part->anchors.reserve(factor.anchors.size());
     ScratchVector<int> used;
     for (std::size_t i = 0; i < factor.anchors.size(); ++i) {
       AnchorTree& whole = cluster.anchors[factor.anchors[i]];
       ScratchVector<int> number(whole.leaves.size(), Hypothesis::kNoLeaf);
       AnchorTree tree{std::move(whole.anchor), {}};
+      tree.leaves.reserve(whole.leaves.size());
       for (Hypothesis& h : factor.hypotheses) {
         int& leaf = h.leaf[i];
         if (leaf == Hypothesis::kNoLeaf) continue;

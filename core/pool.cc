@@ -29,7 +29,7 @@ struct Kept {
   std::size_t bytes;
   bool closed;
 };
-thread_local constinit Kept kept{};
+[[gnu::tls_model("initial-exec")]] thread_local constinit Kept kept{};  // as Scratch::free_
 
 /// Gives it all back when the thread ends.
 struct AtEnd {

@@ -51,11 +51,13 @@ class Scratch {
 
  private:
   friend struct ScratchBlocks;
-  /// What is left of this thread's last block.
+  /// What is left of this thread's last block. Initial-exec: where it stands is read, not asked for
+  /// with a call, before and after which every register would have to be saved.
   struct Free {
     std::byte *next, *end;
   };
-  static inline thread_local constinit Free free_{nullptr, nullptr};
+  [[gnu::tls_model("initial-exec")]] static inline thread_local constinit Free free_{nullptr,
+                                                                                     nullptr};
   static void* allocate_more(std::size_t size);
 
   std::size_t block_, used_;  // where it began

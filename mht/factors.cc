@@ -65,6 +65,7 @@ class Factoriser {
   /// Takes the set: to be called once.
   PoolVector<Factor> factors() {
     PoolVector<Factor> out;
+    out.reserve(parent_.size());
     ScratchVector<int> factor_of(parent_.size(), -1);  // per root
     for (int a = 0; a < static_cast<int>(parent_.size()); ++a) {
       int& factor = factor_of[find(a)];
