@@ -7,7 +7,6 @@
 
 #include "anchoring/shared_detection.h"
 #include "core/log_probability.h"
-#include "geometry/gaussian_mass.h"
 
 namespace anchord {
 namespace {
@@ -70,7 +69,7 @@ void change_attributes(Leaf& leaf, double dt, const Background& background) {
         std::find_if(leaf.attributes.begin(), leaf.attributes.end(),
                      [&](const AttributeBelief& b) { return b.attribute == changes[i].attribute; });
     if (belief == leaf.attributes.end()) continue;
-    std::vector<double>& b = belief->symbols;
+    PoolVector<double>& b = belief->symbols;
     if (b.empty()) {
       belief->variance += changes[i].drift * dt;
     } else if (changes[i].redraw > 0) {
@@ -94,11 +93,9 @@ struct PositionFit {
   bool in_gate = false;
 };
 
-/// How much of a detection lies in a place.
-double mass_in(const Footprint& place, const MapDetection& z, int dims) {
-  for (const auto& [known, share] : z.in_places)
-    if (known == &place) return share;
-  return mass(z.position, place.region, dims);
+PositionFit fit_in_place(const Somewhere& somewhere, const MeasuredIn& z, double gate) {
+  if (z.mass <= 0) return {};
+  return {std::log(somewhere.likelihood(z)), z.mass > 1 - gate};
 }
 
 PositionFit position_fit(const ModelState& state, const MapDetection& detection,
@@ -110,8 +107,12 @@ PositionFit position_fit(const ModelState& state, const MapDetection& detection,
     return {f.log_likelihood, f.distance2 <= background.gate_distance2};
   }
   const auto& somewhere = std::get<Somewhere>(state.density);
-  const double uniform = mass_in(*somewhere.footprint(), detection, background.dims);
-  return {uniform > 0 ? std::log(somewhere.likelihood(z, uniform)) : kLogZero, uniform > 1 - gate};
+  const Footprint* const place = somewhere.footprint().get();
+  const auto known = std::find_if(detection.in_places.begin(), detection.in_places.end(),
+                                  [&](const auto& in) { return in.first == place; });
+  if (known == detection.in_places.end())
+    return fit_in_place(somewhere, MeasuredIn::of(z, *place), gate);
+  return fit_in_place(somewhere, known->second, gate);
 }
 
 /// Whether z may lie in the gate of a model; most detections are too far from most leaves.

@@ -10,6 +10,7 @@
 #include "anchoring/background.h"
 #include "anchoring/map_frame.h"
 #include "anchoring/seen_share.h"
+#include "core/pool.h"
 #include "models/kinematic.h"
 
 namespace anchord {
@@ -19,7 +20,7 @@ class Visibility;
 /// What a leaf believes about one attribute other than the class.
 struct AttributeBelief {
   int attribute = 0;              ///< index into Knowledge::attributes
-  std::vector<double> symbols;    ///< categorical: b_A(s), sums to 1
+  PoolVector<double> symbols;     ///< categorical: b_A(s), sums to 1
   double mean = 0, variance = 0;  ///< scalar
 };
 
@@ -37,7 +38,7 @@ struct Leaf {
   boost::container::small_vector<double, 8> classes;     ///< b(c), sums to 1
   int model_class = 0;                                   ///< the class whose models these are
   boost::container::small_vector<ModelState, 2> models;  ///< in the order of that class
-  std::vector<AttributeBelief> attributes;               ///< those reported, ascending
+  PoolVector<AttributeBelief> attributes;                ///< those reported, ascending
   std::optional<double> yaw;                             ///< last reported, map frame
   ScoreTrace scores;  ///< of its detections, where there are phantoms
   bool held = false;  ///< by a robot: it stays where that is, and a miss says nothing

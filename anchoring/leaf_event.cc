@@ -53,7 +53,8 @@ void follow(ModelState& tracked, double weight, const Gaussian& moments,
   tracked.weight += weight;
 }
 
-void multiply(std::vector<double>& values, const std::vector<double>& by) {
+template <typename Values>
+void multiply(Values& values, const Values& by) {
   double sum = 0;
   for (std::size_t i = 0; i < values.size(); ++i) sum += values[i] * by[i];
   if (sum <= 0) return;  // they contradict each other: the first stands
@@ -166,9 +167,7 @@ Leaf fuse(const Leaf& a, const Leaf& b, const Background& background) {
   const Leaf& other = a_tells ? b : a;
   out.last_seen = std::max(a.last_seen, b.last_seen);
   out.existence = 1 - (1 - a.existence) * (1 - b.existence);
-  std::vector<double> classes(out.classes.begin(), out.classes.end());
-  multiply(classes, {other.classes.begin(), other.classes.end()});
-  out.classes.assign(classes.begin(), classes.end());
+  multiply(out.classes, other.classes);
   for (const AttributeBelief& belief : other.attributes) {
     auto at = std::lower_bound(
         out.attributes.begin(), out.attributes.end(), belief.attribute,

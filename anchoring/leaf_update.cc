@@ -29,7 +29,10 @@ void normalise(Container& symbols, const Background& background) {
 }
 
 AttributeBelief first_belief(const AttributeEvidence& evidence, const Background& background) {
-  AttributeBelief belief{evidence.attribute, evidence.ratio, evidence.mean, evidence.variance};
+  AttributeBelief belief{evidence.attribute,
+                         {evidence.ratio.begin(), evidence.ratio.end()},
+                         evidence.mean,
+                         evidence.variance};
   if (!belief.symbols.empty()) normalise(belief.symbols, background);
   return belief;
 }

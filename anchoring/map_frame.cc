@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "geometry/conversion.h"
-#include "geometry/gaussian_mass.h"
 
 namespace anchord {
 namespace {
@@ -188,7 +187,7 @@ Result<MapDetection> place_detection(const Detection& from, const Frame& frame,
   }
   to.object = from.object;
   for (const Footprint* place : background.searched())
-    to.in_places.emplace_back(place, mass(to.position, place->region, background.dims));
+    to.in_places.emplace_back(place, MeasuredIn::of(to.position, *place));
   return to;
 }
 

@@ -40,8 +40,8 @@ struct MapDetection {
   double log_clutter = 0;     ///< ln kappa(z)
   std::optional<double> yaw;  ///< map frame
   std::string object;         ///< the anchor that it names, or empty
-  /// How much of it lies in each place where objects are looked for, see Background::searched().
-  std::vector<std::pair<const Footprint*, double>> in_places;
+  /// What of it lies in each place where objects are looked for, see Background::searched().
+  std::vector<std::pair<const Footprint*, MeasuredIn>> in_places;
 };
 
 /// A frame, checked and placed in the map: what the engine folds.

@@ -1,9 +1,11 @@
 #include "api/belief_json.h"
 
+#include <span>
+
 namespace anchord {
 namespace {
 
-Json symbols_json(const std::vector<double>& p, const Attribute& attribute) {
+Json symbols_json(std::span<const double> p, const Attribute& attribute) {
   Json out = Json::object();
   for (std::size_t s = 0; s < p.size(); ++s) out[attribute.symbols[s]] = p[s];
   return out;

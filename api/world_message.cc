@@ -14,7 +14,7 @@ attribute_t attribute_message(const AttributeBelief& belief, const Attribute& at
   out.kind = belief.symbols.empty() ? attribute_t::SCALAR : attribute_t::SYMBOLS;
   out.num_symbols = static_cast<std::int32_t>(belief.symbols.size());
   if (!belief.symbols.empty()) out.symbols = attribute.symbols;
-  out.probabilities = belief.symbols;
+  out.probabilities.assign(belief.symbols.begin(), belief.symbols.end());
   out.mean = belief.mean;
   out.variance = belief.variance;
   return out;

@@ -78,15 +78,18 @@ double Somewhere::density(const Eigen::Vector3d& point) const {
   return (i < 0 ? 1.0 : relative(i)) / footprint_->volume;
 }
 
-double Somewhere::likelihood(const Gaussian& z) const {
-  return likelihood(z, ::anchord::mass(z, footprint_->region, footprint_->dims));
-}
-
-double Somewhere::likelihood(const Gaussian& z, double uniform) const {
-  if (!looked_at_ || uniform <= 0) return uniform / footprint_->volume;
+MeasuredIn MeasuredIn::of(const Gaussian& z, const Footprint& place) {
+  MeasuredIn out;
+  out.mass = out.scale = ::anchord::mass(z, place.region, place.dims);
+  if (out.mass <= 0) return out;
   const double spread2 = std::max(z.covariance(0, 0), z.covariance(1, 1));
-  const Grid& grid = footprint_->grid;
-  if (spread2 * 16 < grid.cell * grid.cell && uniform > 0.999) return density(z.mean);
+  const Grid& grid = place.grid;
+  if (spread2 * 16 < grid.cell * grid.cell && out.mass > 0.999) {
+    out.scale = place.region.contains(z.mean, place.dims) ? 1 : 0;
+    const int cell = grid.index(z.mean);
+    if (const int i = cell < 0 ? -1 : place.position_of[cell]; i >= 0) out.parts.push_back({i, 1});
+    return out;
+  }
   // The mean of the density's relative height over the cells around z, weighted by what of z's
   // distribution in the plane lies in each.
   constexpr double kReach = 6;  // standard deviations; 1e-8 of the mass is farther
@@ -99,16 +102,29 @@ double Somewhere::likelihood(const Gaussian& z, double uniform) const {
     return std::clamp(static_cast<int>(std::floor((y - grid.origin.y()) / grid.cell)), 0,
                       grid.rows - 1);
   };
-  double sum = 0, weight = 0;
+  double sum = 0;
   for (int r = row(z.mean.y() - reach); r <= row(z.mean.y() + reach); ++r)
     for (int c = column(z.mean.x() - reach); c <= column(z.mean.x() + reach); ++c) {
-      const int i = footprint_->position_of[r * grid.columns + c];
+      const int i = place.position_of[r * grid.columns + c];
       if (i < 0) continue;
-      const double m = ::anchord::mass(z, footprint_->piece[i], 2);
-      sum += m * relative(i);
-      weight += m;
+      const double m = ::anchord::mass(z, place.piece[i], 2);
+      if (m > 0) out.parts.push_back({i, m});
+      sum += m;
     }
-  return uniform * (weight > 0 ? sum / weight : 1.0) / footprint_->volume;
+  for (Part& part : out.parts) part.share /= sum;
+  return out;
+}
+
+double Somewhere::likelihood(const Gaussian& z) const {
+  return looked_at_ ? likelihood(MeasuredIn::of(z, *footprint_))
+                    : ::anchord::mass(z, footprint_->region, footprint_->dims) / footprint_->volume;
+}
+
+double Somewhere::likelihood(const MeasuredIn& z) const {
+  if (!looked_at_) return z.mass / footprint_->volume;
+  double relative_height = z.parts.empty() ? 1 : 0;
+  for (const auto& [cell, share] : z.parts) relative_height += share * relative(cell);
+  return z.scale * relative_height / footprint_->volume;
 }
 
 double Somewhere::mass_in(int cell_position) const {

@@ -36,6 +36,23 @@ struct Footprint {
   std::vector<double> visible(const MapView& view) const;
 };
 
+/// A measurement as every density over one place has it.
+struct MeasuredIn {
+  double mass = 0;  ///< how much of it lies in the place
+  /// The density convolved with the noise is, over the uniform one, `scale` times the mean of its
+  /// relative heights over these cells (positions in the footprint); of no cells, 1.
+  double scale = 0;
+  struct Part {
+    int cell;
+    double share;  ///< of what lies in these cells
+  };
+  std::vector<Part> parts;
+
+  /// In a 3-D world as if the noise in height were independent of the plane's. Where the noise is
+  /// small against a cell and the mean is well inside, the mean's cell decides.
+  static MeasuredIn of(const Gaussian& measurement, const Footprint& place);
+};
+
 /// A density over a place that says: it is there somewhere. Uniform at first; where a sensor looked
 /// and saw nothing it becomes less. Piecewise constant on the footprint's cells. A value.
 class Somewhere {
@@ -48,12 +65,10 @@ class Somewhere {
   /// The density at a point, per m^dims; 0 outside the place.
   double density(const Eigen::Vector3d& point) const;
 
-  /// The density convolved with a measurement's noise, at its mean; in a 3-D world as if the noise
-  /// in height were independent of the plane's, where parts of the place were looked at already.
-  /// Where the noise is small against a cell and the mean is well inside, the mean's cell decides.
+  /// The density convolved with a measurement's noise, at its mean; see MeasuredIn.
   double likelihood(const Gaussian& measurement) const;
-  /// The same where the measurement's mass in the place is known.
-  double likelihood(const Gaussian& measurement, double mass_in_place) const;
+  /// The same of what has been taken down for the place once, for all densities over it.
+  double likelihood(const MeasuredIn& measurement) const;
 
   /// The density's mass in view; `visible` from Footprint::visible().
   double mass(const std::vector<double>& visible) const;

@@ -121,11 +121,11 @@ TEST(Evidence, ABananaRipens) {
   apply(world, {first_seen("banana", "green")});
   const int color = world.background()->knowledge.find_attribute("color");
   const int size = world.background()->knowledge.find_attribute("size");
-  const std::vector<double> fresh = the_object(world).shown().attribute(color)->symbols;
+  const PoolVector<double> fresh = the_object(world).shown().attribute(color)->symbols;
   const double day = 86400;
   apply(world, {blink(day)});
   const Leaf leaf = the_object(world).shown();
-  const std::vector<double>& now = leaf.attribute(color)->symbols;
+  const PoolVector<double>& now = leaf.attribute(color)->symbols;
   // Bateman's equations for the chain a -> b -> c.
   const double a = 1.2e-5, b = 4e-6, ea = std::exp(-a * day), eb = std::exp(-b * day);
   const double green = fresh[0] * ea, red = fresh[3];
