@@ -8,9 +8,9 @@ anchor-replay --all. Prints Markdown; writes the diagram.
 
 What is counted, in every frame of the index:
 - things: anchors last seen at most SEEN seconds ago (the truth may cover only what is in view; inf:
-  all). A thing is claimed to be within RADIUS of the mean of its marginal density; p is the
-  probability that it exists times the mass there of a normal density with that one's moments.
-  Claims of p >= 0.05 count.
+  all). A thing is claimed to be within RADIUS of where the best world shows it, or, if that does
+  not, of the mean of its marginal density; p is the probability that it exists times the mass there
+  of a normal density with that covariance. Claims of p >= 0.05 count.
 - anchors closer together than a tenth of RADIUS are one thing as far as they are expected to be
   less than 1.5 objects, which is nearer to one than to two: names that compete for it. Its p is the
   sum of theirs, at most 1.
@@ -61,8 +61,9 @@ def things(objects: list[dict], now: int, seen: float, radius: float) -> list[li
     for o in sorted(objects, key=lambda o: -o["p"]):
         if now - o["last_seen"] > seen * 1e6:
             continue
-        x, y = o["marginal"]["position"][:2]
-        number, p = o["p"], o["p"] * mass_within(radius, o["marginal"]["covariance"])
+        place = o if o["in_best"] else o["marginal"]
+        x, y = place["position"][:2]
+        number, p = o["p"], o["p"] * mass_within(radius, place["covariance"])
         for t in found:
             if math.dist((x, y), t[:2]) < TWIN * radius and t[3] + number < ONE:
                 t[2] = min(1.0, t[2] + p)
