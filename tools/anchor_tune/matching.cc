@@ -79,7 +79,7 @@ class Judge {
   }
 
   double range(const MapFrame& frame, const Eigen::Vector3d& position) const {
-    return frame.eye ? (position - *frame.eye).head(background_.dims).norm() : 0;
+    return frame.eye ? (position - *frame.eye).norm() : 0;  // in the plane z is 0
   }
 
   int class_of(const TruthRow& row) const {
