@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "models/kinematic.h"
 
@@ -30,7 +31,8 @@ double variance_of(const Kinematic& density, int dims);
 /// at in vain is not missed again and again.
 ///
 /// A non-decreasing function with share(0) = 0 and share(1) = 1, linear between at most kMost
-/// looks. As the density spreads the looks fade. A value.
+/// looks. As the density spreads the looks fade. A value, of no size where no look told anything,
+/// as for most densities.
 class SeenShare {
  public:
   static constexpr std::size_t kMost = 4;
@@ -55,7 +57,7 @@ class SeenShare {
   void find(const SeenPart& part);
 
   /// A density with the mean and covariance that it has after the looks, if views cut it along
-  /// planes.
+  /// planes across SeenPart::toward: moments of truncated normal densities.
   Kinematic told(const Kinematic& density, int dims) const;
 
   /// Of a mixture of two densities; weights > 0, any sum. Of two sensors' looks those of the
@@ -69,20 +71,25 @@ class SeenShare {
   struct Point {
     double v, share;
   };
-  double at(double v) const;
-  /// What is left of the difference that looks made, now that the density has that variance.
-  double kept(double variance) const;
-  void remember(const SeenPart& part);
-  /// Makes v one of the points. Where there is no room for so many, others go.
-  std::size_t point_at(double v);
-  template <std::size_t Most>
-  void keep(std::array<Point, Most>& points, std::size_t count, double v);
+  /// The function, with the points between which it is linear.
+  struct Curve {
+    std::uint32_t viewer = 0;
+    double variance = 0;  ///< at the last look
+    Eigen::Vector3d toward = Eigen::Vector3d::Zero();
+    std::size_t count = 0;
+    std::array<Point, kMost> points{};  ///< ascending in v, all in (0, 1)
 
-  std::uint32_t viewer_ = 0;
-  std::uint32_t count_ = 0;
-  double variance_ = 0;  ///< at the last look
-  Eigen::Vector3d toward_ = Eigen::Vector3d::Zero();
-  std::array<Point, kMost> points_{};  ///< ascending in v, all in (0, 1)
+    double at(double v) const;
+    /// What is left of the difference that looks made, now that the density has that variance.
+    double kept(double now) const;
+    /// Makes v one of the points. Where there is no room for so many, others go.
+    std::size_t point_at(double v);
+    template <std::size_t Most>
+    void keep(std::array<Point, Most>& all, std::size_t number, double v);
+  };
+  double at(double v) const { return curve_ ? curve_->at(v) : v; }
+
+  std::shared_ptr<const Curve> curve_;  ///< none: no look told anything
 };
 
 }  // namespace anchord
