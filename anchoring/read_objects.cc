@@ -26,6 +26,7 @@ class Objects {
     }
     for (const Hypothesis& h : cluster.hypotheses) add(h);
     for (ObjectBelief& object : objects_) {
+      leave_out_the_improbable(object);
       for (const auto& version : object.versions)
         object.p += version.probability * version.leaf.existence;
       object.p = std::min(object.p, 1.0);  // sums of rounded weights
@@ -42,6 +43,21 @@ class Objects {
     int leaf;
     std::size_t version;
   };
+
+  /// Versions that are in no hypothesis what the object is.
+  static void leave_out_the_improbable(ObjectBelief& object) {
+    std::size_t kept = 0;
+    int best = -1;
+    for (std::size_t v = 0; v < object.versions.size(); ++v) {
+      const bool shown = static_cast<int>(v) == object.best;
+      if (!shown && object.versions[v].probability <= 0) continue;
+      if (shown) best = static_cast<int>(kept);
+      if (kept != v) object.versions[kept] = std::move(object.versions[v]);
+      ++kept;
+    }
+    object.versions.resize(kept);
+    object.best = best;
+  }
 
   bool stands(std::size_t anchor, int leaf) const {
     return leaf != Hypothesis::kNoLeaf &&
