@@ -11,8 +11,13 @@ constexpr double kLeastShown = 0.001;
 Json places_json(const ObjectBelief& object, const Background& background) {
   const auto& places = background.knowledge.places;
   std::vector<std::pair<double, int>> mass;
-  for (int i = 0; i < static_cast<int>(places.size()); ++i)
-    if (const double p = object.in_place(i, background); p >= kLeastShown) mass.emplace_back(p, i);
+  double outside = 1;  // of the outermost ones, where they are disjoint
+  for (int i = 0; i < static_cast<int>(places.size()); ++i) {
+    const double p = object.in_place(i, background);
+    if (places[i].parent < 0) outside -= p;
+    if (p >= kLeastShown) mass.emplace_back(p, i);
+  }
+  if (!background.places_nest()) outside = object.outside_places(background);
   std::stable_sort(mass.begin(), mass.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   Json out = Json::array();
@@ -20,7 +25,7 @@ Json places_json(const ObjectBelief& object, const Background& background) {
     out.push_back({{"place", places[i].name},
                    {"p", p},
                    {"parent", place_json(places[i].parent, background)}});
-  out.push_back({{"place", nullptr}, {"p", object.outside_places(background)}});
+  out.push_back({{"place", nullptr}, {"p", std::max(outside, 0.0)}});
   return out;
 }
 
