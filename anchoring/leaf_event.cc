@@ -50,6 +50,9 @@ void follow(ModelState& tracked, double weight, const Gaussian& moments,
   auto& density = std::get<Kinematic>(tracked.density);
   const Kinematic arriving = at_rest(moments, model, dims);
   density = tracked.weight > 0 ? merge(tracked.weight, density, weight, arriving) : arriving;
+  tracked.seen = tracked.weight > 0
+                     ? SeenShare::merge(tracked.weight, tracked.seen, weight, SeenShare())
+                     : SeenShare();
   tracked.weight += weight;
 }
 
@@ -101,7 +104,7 @@ void put_somewhere(Leaf& leaf, int place, const Background& background) {
   }
   const Gaussian moments = std::get<Somewhere>(leaf.models[main->model].density).moments();
   for (std::size_t m = 0; m < leaf.models.size(); ++m)
-    if (models[m].tracked()) leaf.models[m].density = at_rest(moments, models[m], background.dims);
+    if (models[m].tracked()) leaf.models[m] = {0, at_rest(moments, models[m], background.dims)};
 }
 
 void lose(Leaf& leaf, const Sensor& sensor, LookedAt& looked_at, const Background& background) {

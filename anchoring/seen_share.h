@@ -15,7 +15,9 @@ struct SeenPart {
   double v = 0;              ///< how much of the density is in view, 0 to 1
   std::uint32_t viewer = 0;  ///< a number of the sensor's own
   double variance = 0;       ///< of the density, variance_of()
-  /// Into which side of the density the view reaches: of its standard deviations, 1/m.
+  /// The side from which the view reaches into the density, map frame: g with g' P g = 1 for its
+  /// covariance P, 1/m, so that g'(x - mean) is how far x is in view, in standard deviations from
+  /// the mean on. 0: from no side.
   Eigen::Vector3d toward = Eigen::Vector3d::Zero();
 };
 

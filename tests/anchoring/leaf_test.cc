@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "anchoring/leaf_event.h"
 #include "anchoring/reading.h"
 #include "anchoring/visibility.h"
 #include "tests/anchoring/dice.h"
@@ -169,6 +170,21 @@ TEST_F(HidingLeaves, OnlyUnlikeMotionsMustBeSteppedThrough) {
   const World other(small_world(shaken.dump()));
   EXPECT_FALSE(other.background()->dynamics[0].exchanges);
   EXPECT_TRUE(other.background()->dynamics[1].exchanges);
+}
+
+/// A look at where it was says nothing of where it is said to be.
+TEST_F(Leaves, WhatIsPutElsewhereForgetsTheLooksAtIt) {
+  const SeenPart half{0.5, 1, 0.01};
+  Leaf leaf = random_first();
+  const int tracked = background().dynamics[leaf.model_class].first_detectable;
+  leaf.models[tracked].seen.find(half);
+  ASSERT_EQ(leaf.models[tracked].seen.share(half), 1);
+  put_somewhere(leaf, background().knowledge.find_place("hall"), background());
+  MapEvent missing;  // in vain, at nothing
+  LookedAt nothing(missing);
+  lose(leaf, background().knowledge.default_sensor, nothing, background());
+  ASSERT_GT(leaf.models[tracked].weight, 0);
+  EXPECT_EQ(leaf.models[tracked].seen.share(half), 0.5);
 }
 
 TEST_F(Leaves, WhatSumsToOneStaysSo) {

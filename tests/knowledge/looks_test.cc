@@ -5,6 +5,7 @@
 #include <string>
 
 #include "knowledge/configuration.h"
+#include "tests/knowledge/one_mistake.h"
 
 namespace anchord {
 namespace {
@@ -44,24 +45,14 @@ TEST(Looks, AreReadByClass) {
   EXPECT_EQ(b.score_memory.at(cup).seconds, 3);
 }
 
-struct Case {
-  const char* more;     ///< beside world and attributes
-  const char* path;     ///< where the one mistake is
-  const char* message;  ///< a part of what it says
-};
+using Case = OneMistake;
 
-class Mistake : public testing::TestWithParam<Case> {};
+class MistakenLook : public testing::TestWithParam<Case> {};
 
-TEST_P(Mistake, IsNotedWithItsPath) {
-  const Configuration configuration = read(GetParam().more);
-  ASSERT_EQ(configuration.mistakes().size(), 1u) << GetParam().more;
-  EXPECT_EQ(configuration.mistakes()[0].path, GetParam().path);
-  EXPECT_NE(configuration.mistakes()[0].message.find(GetParam().message), std::string::npos)
-      << configuration.mistakes()[0].message;
-}
+TEST_P(MistakenLook, IsNotedWithItsPath) { expect_noted(read(GetParam().more), GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
-    Looks, Mistake,
+    Looks, MistakenLook,
     testing::Values(Case{R"("sensors": {"a": {"real_share": {"cup": 1}}})",
                          "sensors.a.real_share.cup", "not 1"},
                     Case{R"("sensors": {"a": {"real_share": [0.5]}})", "sensors.a.real_share",
