@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "mht/marginals.h"
@@ -9,21 +10,39 @@
 namespace anchord {
 namespace {
 
+/// A detection that comes from a cluster with at least this probability ties it in any case; with
+/// less only where that is free: where clusters have more worlds together than may be kept, the
+/// least probable of these would be lost for it. Chosen on simulated crowds, from 1e-4 to 0.3.
+constexpr double kSure = 0.03;
+
 /// Which clusters and detections belong together: numbers first the clusters, then the detections.
 class Ties {
  public:
-  explicit Ties(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  Ties(const ScratchVector<PredictedCluster>& clusters, int detections)
+      : parent_(clusters.size() + detections), worlds_(parent_.size(), 1.0) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    for (std::size_t c = 0; c < clusters.size(); ++c)
+      worlds_[c] = static_cast<double>(clusters[c].cluster->hypotheses.size());
+  }
   std::size_t find(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
   void unite(std::size_t a, std::size_t b) {
     a = find(a), b = find(b);
+    if (a == b) return;
     parent_[std::max(a, b)] = std::min(a, b);
+    worlds_[std::min(a, b)] = worlds_[a] * worlds_[b];
+  }
+  /// How many hypotheses they would have together.
+  double worlds(std::size_t a, std::size_t b) {
+    a = find(a), b = find(b);
+    return a == b ? worlds_[a] : worlds_[a] * worlds_[b];
   }
 
  private:
   ScratchVector<std::size_t> parent_;
+  ScratchVector<double> worlds_;  ///< of a root: the product over its clusters
 };
 
 /// That some leaf of an anchor is given a detection.
@@ -68,27 +87,48 @@ void add_edges(const PredictedCluster& predicted, int cluster, int& anchors,
   }
 }
 
+/// Ties each cluster to the detections that may come from it: the surest first, as long as that
+/// costs no worlds.
+void tie_probable(const ScratchVector<PredictedCluster>& clusters, int detections,
+                  const Limits& limits, Ties& ties) {
+  ScratchVector<Edge> edges;
+  int anchors = 0;
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    add_edges(clusters[c], static_cast<int>(c), anchors, edges);
+  ScratchVector<Pairing> pairings;
+  for (const Edge& e : edges) pairings.push_back(e.pairing);
+  estimate_probabilities(pairings, anchors, detections);
+  count_exchanges(pairings, anchors, detections);
+  ScratchVector<std::size_t> rare;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (pairings[e].probability >= kSure)
+      ties.unite(edges[e].cluster, clusters.size() + pairings[e].detection);
+    else if (pairings[e].probability >= limits.min_weight)
+      rare.push_back(e);
+  }
+  std::stable_sort(rare.begin(), rare.end(), [&](std::size_t a, std::size_t b) {
+    return pairings[a].probability > pairings[b].probability;
+  });
+  const double most =
+      limits.max_hypotheses > 0 ? limits.max_hypotheses : std::numeric_limits<double>::infinity();
+  for (const std::size_t e : rare) {
+    const std::size_t c = edges[e].cluster, z = clusters.size() + pairings[e].detection;
+    if (ties.worlds(c, z) <= most) ties.unite(c, z);
+  }
+}
+
 }  // namespace
 
 ScratchVector<Group> couple(ScratchVector<PredictedCluster> clusters, int detections,
-                            double negligible) {
+                            const Limits& limits) {
   const std::size_t n = clusters.size();
-  Ties ties(n + detections);
-  if (negligible <= 0) {
+  Ties ties(clusters, detections);
+  if (limits.min_weight <= 0) {
     for (std::size_t c = 0; c < n; ++c)
       for (int z = 0; z < detections; ++z)
         if (clusters[c].gated[z]) ties.unite(c, n + z);
   } else {
-    ScratchVector<Edge> edges;
-    int anchors = 0;
-    for (std::size_t c = 0; c < n; ++c) add_edges(clusters[c], static_cast<int>(c), anchors, edges);
-    ScratchVector<Pairing> pairings;
-    for (const Edge& e : edges) pairings.push_back(e.pairing);
-    estimate_probabilities(pairings, anchors, detections);
-    count_exchanges(pairings, anchors, detections);
-    for (std::size_t e = 0; e < edges.size(); ++e)
-      if (pairings[e].probability >= negligible)
-        ties.unite(edges[e].cluster, n + pairings[e].detection);
+    tie_probable(clusters, detections, limits, ties);
   }
   ScratchVector<Group> by_root(n + detections);
   for (std::size_t c = 0; c < n; ++c)

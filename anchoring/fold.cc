@@ -14,11 +14,6 @@
 namespace anchord {
 namespace {
 
-/// Detections that come from a cluster with less probability tie it to no other. On simulated
-/// crowds from 1e-4 to 1e-2 makes little difference; without, identity is kept worse, since the
-/// hypotheses of a cluster are bounded.
-constexpr double kNegligible = 1e-4;
-
 double log_gain(const PredictedLeaf& predicted, double log_existence, const Anchor& anchor,
                 const MapDetection& z, const Origin& origin, const Sensor& sensor,
                 const Background& background) {
@@ -144,9 +139,8 @@ void fold(Belief& belief, const MapFrame& frame, const Visibility& visibility,
   std::sort(touched.begin(), touched.end(), [](const auto& a, const auto& b) {
     return a.cluster->anchors[0].anchor->birth < b.cluster->anchors[0].anchor->birth;
   });
-  const double negligible = background.knowledge.limits.min_weight > 0 ? kNegligible : 0;
   const ScratchVector<Group> groups =
-      couple(std::move(touched), static_cast<int>(detections), negligible);
+      couple(std::move(touched), static_cast<int>(detections), background.knowledge.limits);
 
   ScratchVector<std::shared_ptr<const Cluster>> made;
   double log_evidence = -frame.sensor->clutter_density * visibility.volume() -

@@ -80,8 +80,26 @@ void learn_attributes(Leaf& leaf, const MapDetection& z, const Background& backg
   }
 }
 
-/// Bayes over the behaviour models; what was somewhere has been found at z and joins the first
-/// tracked model. Returns the probability that it did not share the detection.
+/// What was in a `somewhere` has been found at z: it joins a tracked model.
+void be_found(Leaf& leaf, std::size_t somewhere, const Gaussian& z, const Sensor& sensor,
+              const Background& background) {
+  const auto& models = background.object_class(leaf.model_class).models;
+  const double weight = leaf.models[somewhere].weight;
+  leaf.models[somewhere] = {0, Somewhere(background.footprint(models[somewhere].place))};
+  if (weight <= 0) return;
+  const int told = models[somewhere].found_in;
+  const int target = told >= 0 ? told : background.dynamics[leaf.model_class].first_detectable;
+  const bool moving = models[target].kind == BehaviourModel::Kind::kConstantVelocity;
+  Kinematic at_z = kinematic_at(z, moving ? models[target].initial_velocity_variance : ByAxis(),
+                                background.dims);
+  keep_above(at_z, sensor.pose_floor, background.dims);
+  ModelState& home = leaf.models[target];
+  auto& density = std::get<Kinematic>(home.density);
+  density = home.weight > 0 ? merge(home.weight, density, weight, at_z) : at_z;
+  home.weight += weight;
+}
+
+/// Bayes over the behaviour models. Returns the probability that it did not share the detection.
 double update_models(Leaf& leaf, const MapDetection& z, const LeafVisibility& shown,
                      const Sensor& sensor, const Background& background) {
   const int dims = background.dims;
@@ -93,7 +111,6 @@ double update_models(Leaf& leaf, const MapDetection& z, const LeafVisibility& sh
       leaf.models[0].weight = 1;
       return 1;
     }
-  const int target = background.dynamics[leaf.model_class].first_detectable;
   boost::container::small_vector<double, 4> log_weight(leaf.models.size(), kLogZero);
   const double log_own = background.shares ? log_attribute_ratio(leaf, z, background) : 0;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
@@ -112,26 +129,13 @@ double update_models(Leaf& leaf, const MapDetection& z, const LeafVisibility& sh
     }
   }
   const double total = log_sum(log_weight, [](double x) { return x; });
-  double found = 0, shared = 0;
+  double shared = 0;
   for (std::size_t m = 0; m < leaf.models.size(); ++m) {
-    double weight = std::exp(log_weight[m] - total);
-    if (!models[m].tracked()) {
-      found += weight;
-      weight = 0;
-      leaf.models[m].density = Somewhere(background.footprint(models[m].place));
-    }
-    leaf.models[m].weight = weight;
-    if (models[m].shares()) shared += weight;
+    leaf.models[m].weight = std::exp(log_weight[m] - total);
+    if (models[m].shares()) shared += leaf.models[m].weight;
   }
-  if (found <= 0) return 1 - shared;
-  ModelState& home = leaf.models[target];
-  const bool moving = models[target].kind == BehaviourModel::Kind::kConstantVelocity;
-  Kinematic at_z =
-      kinematic_at(z.position, moving ? models[target].initial_velocity_variance : ByAxis(), dims);
-  keep_above(at_z, sensor.pose_floor, dims);
-  auto& density = std::get<Kinematic>(home.density);
-  density = home.weight > 0 ? merge(home.weight, density, found, at_z) : at_z;
-  home.weight += found;
+  for (std::size_t m = 0; m < leaf.models.size(); ++m)
+    if (!models[m].tracked()) be_found(leaf, m, z.position, sensor, background);
   return 1 - shared;
 }
 

@@ -27,6 +27,9 @@ struct BehaviourModel {
   ByAxis initial_velocity_variance;  ///< constant_velocity, (m/s)^2
   int place = -1;                    ///< somewhere: index of its place, -1 for the world's bounds
   double rate = 0;                   ///< somewhere: 1/s at which every tracked model enters it
+  /// somewhere: index of the model that an object is in that has been found; -1: the class's first
+  /// tracked one that is detectable and shares no detections.
+  int found_in = -1;
   double initial_weight = 0;  ///< in a new anchor; those of a class sum to 1, somewhere has 0
   bool detectable = true;
   /// constant_position only: an object in it shares a detection with others that it touches; with

@@ -62,7 +62,7 @@ std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge
       read_by_axis(value, "initial_velocity_variance", model.initial_velocity_variance);
       break;
     case BehaviourModel::Kind::kSomewhere:
-      value.object_of({"kind", "place", "rate", "initial_weight", "detectable"});
+      value.object_of({"kind", "place", "rate", "found_in", "initial_weight", "detectable"});
       if (const auto place = value.find("place")) {
         model.place = place->one_of(names(knowledge.places), "place").value_or(-1);
       }
@@ -87,6 +87,21 @@ void weigh(const JsonValue& value, const std::vector<char>& weighted,
   for (const BehaviourModel& model : models) sum += model.initial_weight;
   if (!(sum > 0)) value.mistake("at least one initial_weight must be above 0");
   for (BehaviourModel& model : models) model.initial_weight /= sum > 0 ? sum : 1;
+}
+
+bool is_found_in(const BehaviourModel& model) {
+  return model.tracked() && model.detectable && !model.shares();
+}
+
+/// Which model what was somewhere is in once it has been found: known when all models are.
+void read_found_in(const JsonValue& value, std::vector<BehaviourModel>& models, std::size_t of) {
+  const auto found_in = value.find("found_in");
+  const auto index =
+      found_in ? found_in->integer(0, static_cast<int>(models.size()) - 1) : std::nullopt;
+  if (!index) return;
+  models[of].found_in = *index;
+  if (!is_found_in(models[static_cast<std::size_t>(*index)]))
+    found_in->mistake("must be a tracked model that is detectable and shares no detections");
 }
 
 }  // namespace
@@ -123,9 +138,9 @@ std::vector<BehaviourModel> read_models(const JsonValue& value, const Knowledge&
     }
   }
   if (!all_read) return models;
-  if (std::none_of(models.begin(), models.end(), [](const BehaviourModel& model) {
-        return model.tracked() && model.detectable && !model.shares();
-      })) {
+  std::size_t m = 0;
+  for (const JsonValue& entry : value.elements(kMostModels)) read_found_in(entry, models, m++);
+  if (std::none_of(models.begin(), models.end(), is_found_in)) {
     value.mistake(
         "needs a constant_position or constant_velocity model that is detectable and shares no "
         "detections");

@@ -292,9 +292,10 @@ double Laws::detect(Object& object, const Sensor& sensor, const Sight& sight,
   }
   for (std::size_t i = 0; i < m.size(); ++i) {
     if (m[i].tracked() || weights[i] == 0) continue;  // a `somewhere` that has been found
-    Density& found = object.models[home];
+    const int to = m[i].found_in < 0 ? home : m[i].found_in;
+    Density& found = object.models[to];
     found.state = merge(found.weight, found.state, weights[i] / place,
-                        fit({z.position, z.covariance}, m[home], cells_.dims));
+                        fit({z.position, z.covariance}, m[to], cells_.dims));
     found.weight += weights[i] / place;
   }
   object.classes = classes / classes.sum();

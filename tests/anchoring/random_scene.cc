@@ -154,7 +154,8 @@ class Maker {
     const bool moves = dice_.chance(0.5);
     c.models.push_back(tracked(moves ? Kind::kConstantVelocity : Kind::kConstantPosition));
     c.models[0].initial_weight = 1;
-    if (variety_.several_models && dice_.chance(0.8)) {
+    const bool two = variety_.several_models && dice_.chance(0.8);
+    if (two) {
       c.models.push_back(
           tracked(moves == dice_.chance(0.8) ? Kind::kConstantPosition : Kind::kConstantVelocity));
       c.models[1].initial_weight = dice_.chance(0.5) ? dice_.uniform(0.1, 0.5) : 0;
@@ -193,11 +194,13 @@ class Maker {
         model.initial_weight = 0.1 * c.models[0].initial_weight;
         c.models[0].initial_weight -= model.initial_weight;
       }
+      if (two && dice_.chance(0.4)) model.found_in = 1;
       c.models.push_back(model);
     }
     if (c.models.back().kind == Kind::kSomewhere && dice_.chance(0.3)) {  // a tracked one not first
       std::rotate(c.models.begin(), c.models.end() - 1, c.models.end());
       for (Transition& t : c.transitions) t = {t.from + 1, t.to + 1, t.rate};
+      for (BehaviourModel& m : c.models) m.found_in += m.found_in >= 0;
     }
   }
 

@@ -99,6 +99,12 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"("classes": {"cup": {"models": [{"kind": "constant_position"},
                                      {"kind": "somewhere", "position_psd": 1}]}})",
              "classes.cup.models[1].position_psd", "no such key"},
+        Case{R"("classes": {"cup": {"models": [{"kind": "constant_position"},
+                                     {"kind": "somewhere", "found_in": 2}]}})",
+             "classes.cup.models[1].found_in", "from 0 to 1"},
+        Case{R"("classes": {"cup": {"models": [{"kind": "constant_position"},
+                                     {"kind": "somewhere", "found_in": 1}]}})",
+             "classes.cup.models[1].found_in", "tracked"},
         Case{R"("classes": {"cup": {"models": [{"kind": "constant_position",
                                                 "initial_weight": 0}]}})",
              "classes.cup.models", "initial_weight"}));

@@ -135,7 +135,7 @@ TEST(Configuration, ClassesTakeWhatIsMissingFromDefault) {
                 "transitions": [{"from": 0, "to": 1, "rate": 0.2}],
                 "arrivals": [{"place": "table", "rate": 0.1}]},
     "cup": {"departure_rate": 0.5},
-    "box": {"models": [{"kind": "somewhere", "place": "kitchen", "rate": 0.3},
+    "box": {"models": [{"kind": "somewhere", "place": "kitchen", "rate": 0.3, "found_in": 1},
                        {"kind": "constant_position"},
                        {"kind": "constant_velocity", "initial_weight": 3, "detectable": false}],
             "transitions": [], "arrivals": []}})");
@@ -159,6 +159,7 @@ TEST(Configuration, ClassesTakeWhatIsMissingFromDefault) {
   ASSERT_EQ(box.models.size(), 3u);
   EXPECT_EQ(box.models[0].place, knowledge.find_place("kitchen"));
   EXPECT_EQ(box.models[0].initial_weight, 0);
+  EXPECT_EQ(box.models[0].found_in, 1);
   EXPECT_EQ(box.models[1].initial_weight, 0.25);  // 1 of 4
   EXPECT_EQ(box.models[2].initial_weight, 0.75);
   EXPECT_FALSE(box.models[2].detectable);
