@@ -106,8 +106,9 @@ void tie_probable(const ScratchVector<PredictedCluster>& clusters, int detection
     else if (pairings[e].probability >= limits.min_weight)
       rare.push_back(e);
   }
-  std::stable_sort(rare.begin(), rare.end(), [&](std::size_t a, std::size_t b) {
-    return pairings[a].probability > pairings[b].probability;
+  std::sort(rare.begin(), rare.end(), [&](std::size_t a, std::size_t b) {
+    const double pa = pairings[a].probability, pb = pairings[b].probability;
+    return pa != pb ? pa > pb : a < b;
   });
   const double most =
       limits.max_hypotheses > 0 ? limits.max_hypotheses : std::numeric_limits<double>::infinity();
