@@ -11,18 +11,16 @@ namespace anchord {
 namespace {
 
 /// A detection that comes from a cluster with at least this probability ties it in any case; with
-/// less only where that is free: where clusters have more worlds together than may be kept, the
-/// least probable of these would be lost for it. Chosen on simulated crowds, from 1e-4 to 0.3.
+/// less only where that is free: where clusters have more worlds together that are as probable than
+/// may be kept, some of these would be lost for it. Chosen on simulated crowds, from 1e-4 to 0.3.
 constexpr double kSure = 0.03;
 
 /// Which clusters and detections belong together: numbers first the clusters, then the detections.
 class Ties {
  public:
-  Ties(const ScratchVector<PredictedCluster>& clusters, int detections)
-      : parent_(clusters.size() + detections), worlds_(parent_.size(), 1.0) {
+  explicit Ties(std::size_t n) : parent_(n), next_(n) {
     std::iota(parent_.begin(), parent_.end(), 0);
-    for (std::size_t c = 0; c < clusters.size(); ++c)
-      worlds_[c] = static_cast<double>(clusters[c].cluster->hypotheses.size());
+    std::iota(next_.begin(), next_.end(), 0);
   }
   std::size_t find(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
@@ -32,17 +30,21 @@ class Ties {
     a = find(a), b = find(b);
     if (a == b) return;
     parent_[std::max(a, b)] = std::min(a, b);
-    worlds_[std::min(a, b)] = worlds_[a] * worlds_[b];
+    std::swap(next_[a], next_[b]);
   }
-  /// How many hypotheses they would have together.
-  double worlds(std::size_t a, std::size_t b) {
-    a = find(a), b = find(b);
-    return a == b ? worlds_[a] : worlds_[a] * worlds_[b];
+  /// Calls a function with all that i belongs together with, i among them.
+  template <typename Function>
+  void with_all(std::size_t i, Function function) const {
+    std::size_t member = i;
+    do {
+      function(member);
+      member = next_[member];
+    } while (member != i);
   }
 
  private:
   ScratchVector<std::size_t> parent_;
-  ScratchVector<double> worlds_;  ///< of a root: the product over its clusters
+  ScratchVector<std::size_t> next_;  ///< a ring of those that belong together
 };
 
 /// That some leaf of an anchor is given a detection.
@@ -87,6 +89,15 @@ void add_edges(const PredictedCluster& predicted, int cluster, int& anchors,
   }
 }
 
+/// How many hypotheses of a cluster weigh so much.
+double worlds_above(const PredictedCluster& predicted, double log_weight) {
+  const HypothesisSet& all = predicted.cluster->hypotheses;  // best first
+  return static_cast<double>(
+      std::partition_point(all.begin(), all.end(),
+                           [&](const Hypothesis& h) { return h.log_weight >= log_weight; }) -
+      all.begin());
+}
+
 /// Ties each cluster to the detections that may come from it: the surest first, as long as that
 /// costs no worlds.
 void tie_probable(const ScratchVector<PredictedCluster>& clusters, int detections,
@@ -114,7 +125,15 @@ void tie_probable(const ScratchVector<PredictedCluster>& clusters, int detection
       limits.max_hypotheses > 0 ? limits.max_hypotheses : std::numeric_limits<double>::infinity();
   for (const std::size_t e : rare) {
     const std::size_t c = edges[e].cluster, z = clusters.size() + pairings[e].detection;
-    if (ties.worlds(c, z) <= most) ties.unite(c, z);
+    if (ties.find(c) == ties.find(z)) continue;
+    double worlds = 1;  // that are worth as much as the tie
+    const auto count = [&](std::size_t member) {
+      if (member < clusters.size())
+        worlds *= worlds_above(clusters[member], std::log(pairings[e].probability));
+    };
+    ties.with_all(c, count);
+    ties.with_all(z, count);
+    if (worlds <= most) ties.unite(c, z);
   }
 }
 
@@ -123,7 +142,7 @@ void tie_probable(const ScratchVector<PredictedCluster>& clusters, int detection
 ScratchVector<Group> couple(ScratchVector<PredictedCluster> clusters, int detections,
                             const Limits& limits) {
   const std::size_t n = clusters.size();
-  Ties ties(clusters, detections);
+  Ties ties(n + detections);
   if (limits.min_weight <= 0) {
     for (std::size_t c = 0; c < n; ++c)
       for (int z = 0; z < detections; ++z)
