@@ -21,10 +21,18 @@ class Clusters {
   struct Entry {
     Pointer cluster;
     Reach reach;
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(cluster, reach);
+    }
   };
   struct Chunk {
     PoolVector<Entry> entries;
     Reach reach;  ///< of them all
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(entries, reach);
+    }
   };
   using Chunks = PoolVector<std::shared_ptr<const Chunk>>;
 
@@ -88,6 +96,11 @@ class Clusters {
   void add(Pointer cluster, const Background& background);
   void erase(std::size_t index);
   void replace(std::size_t index, Pointer cluster, const Background& background);
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(chunks_, size_);
+  }
 
  private:
   template <typename Meet>

@@ -25,6 +25,11 @@ class ScoreTrace {
   /// Takes the score that this was said of.
   void take(const ScoreEvidence& evidence, Utime utime);
 
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(mean_, response_, variance_, utime_);
+  }
+
  private:
   /// The lasting part at a later time.
   ScoreTrace predicted(const ScoreMemory& memory, Utime utime) const;

@@ -69,9 +69,18 @@ class SeenShare {
   /// At most how much the shares of any part differ.
   static double difference(const SeenShare& a, const SeenShare& b);
 
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(curve_);
+  }
+
  private:
   struct Point {
     double v, share;
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(v, share);
+    }
   };
   /// The function, with the points between which it is linear.
   struct Curve {
@@ -80,6 +89,10 @@ class SeenShare {
     Eigen::Vector3d toward = Eigen::Vector3d::Zero();
     std::size_t count = 0;
     std::array<Point, kMost> points{};  ///< ascending in v, all in (0, 1)
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(viewer, variance, toward, count, points);
+    }
 
     double at(double v) const;
     /// What is left of the difference that looks made, now that the density has that variance.

@@ -88,10 +88,44 @@ void World::insert(Step step) {
   const std::size_t index = place_in_order(step.utime);
   step.before = index < recent_.size() ? recent_[index].before : belief_;
   recent_.insert(recent_.begin() + static_cast<std::ptrdiff_t>(index), std::move(step));
+  recent_[index].number = ++taken_;
   fold_from(index);
-  ++taken_;
   const Utime horizon = belief_->utime - from_seconds(background_->knowledge.max_lateness);
   while (recent_.size() > 1 && recent_.front().utime < horizon) recent_.pop_front();
+}
+
+WorldState World::state() const {
+  WorldState state{belief_, {}, newest_, late_frames_, taken_};
+  if (!recent_.empty()) state.before = recent_.front().before;
+  for (const Step& step : recent_) state.recent.push_back({step.number, step.utime});
+  return state;
+}
+
+Status World::resume(WorldState state, const std::vector<Accepted>& recent) {
+  std::deque<Step> steps;
+  for (std::size_t i = 0; i < recent.size(); ++i) {
+    const auto& [number, utime] = state.recent[i];
+    Step step{utime, {}, state.before, number};
+    if (const auto* frame = std::get_if<Frame>(&recent[i].what)) {
+      auto placed = place_in_map(*frame, *background_);
+      if (!placed) return placed.error();
+      placed->work = recent[i].work;
+      step.taken = std::make_shared<const MapFrame>(*std::move(placed));
+    } else {
+      auto placed = place_in_map(std::get<Event>(recent[i].what), *background_);
+      if (!placed) return placed.error();
+      placed->number = number;
+      step.taken = std::make_shared<const MapEvent>(*std::move(placed));
+    }
+    steps.push_back(std::move(step));
+  }
+  belief_ = std::move(state.before);
+  recent_ = std::move(steps);
+  newest_ = std::move(state.newest);
+  late_frames_ = state.late_frames;
+  taken_ = state.taken;
+  if (!recent_.empty()) fold_from(0);
+  return Done{};
 }
 
 Status World::apply(const Frame& frame, std::optional<std::uint64_t> work) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "anchoring/belief.h"
 #include "anchoring/map_event.h"
@@ -16,6 +17,27 @@
 #include "core/result.h"
 
 namespace anchord {
+
+/// What must be kept of a world so that another one goes on from there as it would.
+struct WorldState {
+  /// A frame or event before which a late one may still have its place.
+  struct Step {
+    std::int64_t number = 0;  ///< among all that the world has taken, from 1
+    Utime utime = 0;          ///< by which it is in order
+  };
+  std::shared_ptr<const Belief>
+      before;                ///< the first of these steps, or after all if there is none
+  std::vector<Step> recent;  ///< in order
+  std::map<std::pair<std::string, std::string>, Utime> newest;  ///< by robot and sensor
+  std::uint64_t late_frames = 0;
+  std::int64_t taken = 0;
+};
+
+/// A frame or event that has been accepted once.
+struct Accepted {
+  std::variant<Frame, Event> what;
+  std::optional<std::uint64_t> work = std::nullopt;  ///< bound on what folding a frame may take
+};
 
 /// The engine: folds frames and events into a belief. Given the same knowledge and the same ones
 /// in the same order it makes the same belief, to the bit. Reads no clock. Not thread-safe; a
@@ -48,6 +70,12 @@ class World {
   Result<MapFrame> check(const Frame& frame) const;
   Result<MapEvent> check(const Event& event) const;
 
+  /// Costs next to nothing: it shares the belief.
+  WorldState state() const;
+  /// Goes on from a state that a world of the same knowledge was in. `recent`: what it took as
+  /// WorldState::recent, in that order. Refuses what place_in_map() does.
+  Status resume(WorldState state, const std::vector<Accepted>& recent);
+
   /// The belief after the frames so far.
   const std::shared_ptr<const Belief>& belief() const { return belief_; }
 
@@ -62,6 +90,7 @@ class World {
     Utime utime;
     std::variant<std::shared_ptr<const MapFrame>, std::shared_ptr<const MapEvent>> taken;
     std::shared_ptr<const Belief> before;
+    std::int64_t number = 0;
   };
   Status check_lateness(Utime utime) const;
   Utime order_of(const Event& event) const;

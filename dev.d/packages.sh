@@ -9,6 +9,7 @@ PACKAGES_BUILD=(
   libeigen3-dev                              # vectors and matrices
   liblcm-dev liblcm-bin libglib2.0-dev       # LCM, its lcm-gen, and what lcm.pc requires
   libsqlite3-dev                             # the frame log
+  libcereal-dev                              # checkpoints of the belief
   nlohmann-json3-dev                         # configuration, HTTP API
   libboost1.81-dev                           # Beast: HTTP
   libcli11-dev libspdlog-dev libsystemd-dev  # command lines, logging, service readiness

@@ -64,6 +64,12 @@ class MovingIntensity {
   /// Per source, oldest arrivals first.
   const std::vector<Mixture>& mixtures() const { return *mixtures_; }
 
+  /// What changes of it; what arrives does not.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(time_, mixtures_);
+  }
+
  private:
   std::shared_ptr<const MovingArrivals> arrivals_;
   double time_ = 0;

@@ -90,6 +90,12 @@ class Somewhere {
   /// Mean and covariance of the position.
   Gaussian moments() const;
 
+  /// What changes of it; the place does not.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(looked_at_, weight_looked_);
+  }
+
  private:
   /// Density in a cell over the uniform one.
   double relative(std::size_t i) const {

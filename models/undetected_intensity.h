@@ -57,10 +57,20 @@ class UndetectedIntensity {
   /// before, per m^dims: times p and a cell's volume, how many detections were expected.
   double miss(const Look& look, double p, double time);
 
+  /// What changes of it; grid and arrivals do not.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(tiles_);
+  }
+
  private:
   struct Tile {
     double time = 0;
     PoolVector<double> intensity;
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(time, intensity);
+    }
   };
   double untouched(int cell, double time) const;
   double arrival_rate(int cell) const {
