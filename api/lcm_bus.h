@@ -5,20 +5,15 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "api/lcm_sender.h"
 #include "core/result.h"
 
 namespace anchord {
-
-/// The URL that LcmBus::open() uses for `requested`: for an empty one the environment's
-/// LCM_DEFAULT_URL, else LCM's own default with ttl 0; and for udpm:// without recv_buf_size the
-/// largest buffer that the kernel gives, at most 4 MiB, for a burst of large frames.
-std::string effective_lcm_url(const std::string& requested);
 
 /// A connection to an LCM network, and the thread that receives from it. LCM has no notion of who
 /// sends: every byte that comes in is untrusted.
@@ -38,8 +33,9 @@ class LcmBus {
   LcmBus& operator=(const LcmBus&) = delete;
 
   /// Hands every message of a channel to `handler`, once start() is called. Only before start().
-  /// `channel` is a regular expression, as in LCM.
-  Status subscribe(const std::string& channel, Handler handler);
+  /// `channel` is a regular expression, as in LCM. While a handler is busy `queued` messages wait;
+  /// liblcm drops more, and tells nobody.
+  Status subscribe(const std::string& channel, Handler handler, int queued = kQueued);
 
   /// Starts receiving, once.
   void start();
@@ -48,30 +44,29 @@ class LcmBus {
   void stop();
 
   /// Sends bytes. Safe from any thread.
-  Status publish(const std::string& channel, std::span<const std::uint8_t> bytes);
+  Status publish(const std::string& channel, std::span<const std::uint8_t> bytes) {
+    return sender_->publish(channel, bytes);
+  }
 
   /// The URL in use.
-  const std::string& url() const { return url_; }
+  const std::string& url() const { return sender_->url(); }
 
  private:
   struct Subscription {
     std::string channel;
     Handler handler;
   };
-  struct Destroy {
-    void operator()(lcm_t* lcm) const { lcm_destroy(lcm); }
-  };
+  static constexpr int kQueued = 500;  // LCM's default is 30
 
-  LcmBus(std::string url, lcm_t* lcm, int wake);
+  LcmBus(std::unique_ptr<LcmSender> sender, int wake);
+  lcm_t* lcm() const { return sender_->lcm_.get(); }
   static void dispatch(const lcm_recv_buf_t* received, const char* channel, void* subscription);
   void receive();
   bool woken_within(int timeout_ms) const;
 
-  std::string url_;
-  std::vector<std::unique_ptr<Subscription>> subscriptions_;  ///< outlive lcm_, which points there
-  std::unique_ptr<lcm_t, Destroy> lcm_;
-  std::mutex publishing_;  ///< liblcm's tcpq provider does not lock
-  int wake_;               ///< eventfd, readable once the thread shall end
+  std::vector<std::unique_ptr<Subscription>> subscriptions_;  ///< outlive what points there:
+  std::unique_ptr<LcmSender> sender_;
+  int wake_;  ///< eventfd, readable once the thread shall end
   std::thread thread_;
 };
 
