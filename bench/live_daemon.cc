@@ -37,6 +37,7 @@ LiveDaemon::LiveDaemon(Knowledge knowledge) : port_(free_port()) {
   options_.data_directory = directory_ = pattern;
   options_.lcm_url = kLcmUrl;
   options_.http_address = "127.0.0.1:" + std::to_string(port_);
+  options_.lcm_receiver = ANCHORD;
   auto service = Service::open(std::move(knowledge), options_);
   if (!service) fail(service.error().text());
   service_ = std::move(*service);

@@ -50,6 +50,7 @@ void receive_frames(const HttpRequest& request, const HttpReply& reply,
     if (receipt->repeated > 0) body["repeated"] = receipt->repeated;
     reply({200, "application/json", body.dump() + "\n", {}});
   };
+  submission.bytes = request.body.size();
   const std::size_t count = submission.frames.size();
   if (count == 0) return submission.done(Receipt{});
   if (!backend.journal.submit(std::move(submission))) {

@@ -92,12 +92,16 @@ void Journal::start() {
 bool Journal::submit(Submission submission) {
   {
     std::lock_guard lock(mutex_);
-    if (ending_ || waiting_ + submission.size() > kQueue) return false;
-    waiting_ += submission.size();
+    if (ending_ || !intake_.enter(submission.size(), submission.bytes, Clock::now())) return false;
     queue_.push_back(std::move(submission));
   }
   wake_.notify_one();
   return true;
+}
+
+Intake::State Journal::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return intake_.state(Clock::now());
 }
 
 void Journal::run() {
@@ -110,7 +114,7 @@ void Journal::run() {
     if (!queue_.empty()) {
       Submission submission = std::move(queue_.front());
       queue_.pop_front();
-      waiting_ -= submission.size();
+      intake_.leave(submission.size(), submission.bytes, Clock::now());
       const bool too_late = ending_ && Clock::now() >= ends_;
       lock.unlock();
       if (too_late)

@@ -16,6 +16,7 @@
 #include "core/event.h"
 #include "core/frame.h"
 #include "core/verification.h"
+#include "daemon/intake.h"
 #include "daemon/pace.h"
 #include "daemon/statistics.h"
 #include "knowledge/frame_log.h"
@@ -40,6 +41,7 @@ struct Submission {
   std::function<void(Result<Receipt>)> done;
   std::vector<Event> events = {};
   std::vector<Task> tasks = {};
+  std::size_t bytes = 0;  ///< in which it came from outside; see Intake
 
   std::size_t size() const { return frames.size() + events.size() + tasks.size(); }
 };
@@ -65,7 +67,7 @@ class Journal {
   /// as soon as nothing else is to be applied.
   static constexpr std::chrono::milliseconds kBatch{30};
   /// Frames that may wait; more are refused.
-  static constexpr std::size_t kQueue = 4096;
+  static constexpr std::size_t kQueue = Intake::kFrames;
   /// How long frames that wait are still applied at the end; those left over are refused.
   static constexpr std::chrono::milliseconds kEnding{500};
 
@@ -85,6 +87,9 @@ class Journal {
 
   /// Hands frames in, from any thread. False, and `done` not called, if too many wait.
   bool submit(Submission submission);
+
+  /// What waits. Safe from any thread.
+  Intake::State waiting() const;
 
   /// What to answer from. Safe from any thread.
   Snapshot snapshot() const { return {published_.load(), background_}; }
@@ -134,10 +139,10 @@ class Journal {
 
   std::atomic<std::shared_ptr<const Belief>> published_;
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Submission> queue_;  // guarded by mutex_, as all below
-  std::size_t waiting_ = 0;       ///< frames in the queue
+  Intake intake_;                 ///< of the queue
   bool ending_ = false;
   Clock::time_point ends_;  ///< when what waits is refused
   std::thread thread_;

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <string_view>
 #include <utility>
 
 #include "api/replies.h"
@@ -24,8 +25,10 @@ Utime now() {
 
 }  // namespace
 
-LcmFront::LcmFront(std::unique_ptr<LcmBus> bus, Statistics& statistics)
-    : bus_(std::move(bus)),
+LcmFront::LcmFront(std::unique_ptr<LcmSender> sender, std::unique_ptr<LcmReceiver> receiver,
+                   Statistics& statistics)
+    : sender_(std::move(sender)),
+      receiver_(std::move(receiver)),
       statistics_(statistics),
       publisher_(kWorldsWaiting),
       refusals_(kRefusalsWaiting),
@@ -33,45 +36,55 @@ LcmFront::LcmFront(std::unique_ptr<LcmBus> bus, Statistics& statistics)
       triggers_(kTriggersWaiting),
       tasks_(kTasksWaiting) {}
 
-Status LcmFront::start(Journal& journal, Verifications& verifications, Robots& robots,
-                       Answerer answerer) {
-  const std::pair<const char*, LcmBus::Handler> handlers[] = {
-      {kDetectionsChannel, [this, &journal](auto bytes) { receive_frame(bytes, journal); }},
-      {kEventChannel,
-       [this, &journal, &robots](auto bytes) { receive_event(bytes, journal, robots); }},
-      {kTriggerChannel,
-       [this, &verifications](auto bytes) { receive_trigger(bytes, verifications); }},
-      {kResultChannel,
-       [this, &verifications](auto bytes) { receive_result(bytes, verifications); }},
-      {kPoseChannel, [this, &verifications](auto bytes) { receive_pose(bytes, verifications); }},
-      {kQueryChannel,
-       [this, ask = std::move(answerer)](auto bytes) { receive_query(bytes, ask); }}};
-  for (const auto& [channel, handler] : handlers)
-    if (Status s = bus_->subscribe(channel, handler); !s) return s;
-  bus_->start();
-  return Done{};
+void LcmFront::start(Journal& journal, Verifications& verifications, Robots& robots,
+                     Answerer answerer) {
+  receiver_->start([this, &journal, &verifications, &robots,
+                    ask = std::move(answerer)](const LcmRecord& record) {
+    const std::string_view channel = kReceivedChannels[record.channel];
+    const auto bytes = record.bytes;
+    if (record.kind == LcmRecord::Kind::kRefused)
+      receive_refusal(channel.data(), refusal(bytes));
+    else if (channel == kDetectionsChannel)
+      receive_frame(bytes, journal);
+    else if (channel == kEventChannel)
+      receive_event(bytes, journal, robots);
+    else if (channel == kTriggerChannel)
+      receive_trigger(bytes, verifications);
+    else if (channel == kResultChannel)
+      receive_result(bytes, verifications);
+    else if (channel == kPoseChannel)
+      receive_pose(bytes, verifications);
+    else
+      receive_query(bytes, ask);
+  });
 }
 
 void LcmFront::stop() {
-  bus_->stop();
+  receiver_->stop();
   questions_.stop();
   triggers_.stop();
 }
 
-void LcmFront::receive_frame(std::span<const std::uint8_t> bytes, Journal& journal) {
-  ++statistics_.received_lcm;
-  auto message = decode_frame(bytes);
-  if (!message) {
+/// What the receiving process did not pass on.
+void LcmFront::receive_refusal(const char* channel, const Error& why) {
+  if (std::string_view(channel) == kDetectionsChannel) {
+    ++statistics_.received_lcm;
     ++statistics_.refused;
-    ++statistics_.refused_lcm;
-    publish_refusal(kDetectionsChannel, nullptr, message.error());
-    return;
   }
+  refuse(channel, why);
+}
+
+void LcmFront::receive_frame(std::span<const std::uint8_t> bytes, Journal& journal) {
+  auto message = decode_frame(bytes);
+  if (!message) return receive_refusal(kDetectionsChannel, message.error());
+  ++statistics_.received_lcm;
   statistics_.lost += gaps_.missing(message->frame.robot, message->frame.sensor, message->seq);
   Frame name;  // what tells of the frame once it has been handed on
   name.utime = message->frame.utime;
   name.sensor = message->frame.sensor;
-  if (journal.submit({{std::move(message->frame)}, kDetectionsChannel, false, {}})) return;
+  Submission submission{{std::move(message->frame)}, kDetectionsChannel, false, {}};
+  submission.bytes = bytes.size();
+  if (journal.submit(std::move(submission))) return;
   ++statistics_.overrun;
   publish_refusal(kDetectionsChannel, &name,
                   {ErrorCode::kUnavailable, "", "too many frames wait to be applied"});
@@ -79,11 +92,7 @@ void LcmFront::receive_frame(std::span<const std::uint8_t> bytes, Journal& journ
 
 void LcmFront::receive_query(std::span<const std::uint8_t> bytes, const Answerer& answerer) {
   auto query = decode_query(bytes);
-  if (!query) {
-    ++statistics_.refused_lcm;
-    publish_refusal(kQueryChannel, nullptr, query.error());
-    return;
-  }
+  if (!query) return refuse(kQueryChannel, query.error());
   const auto reply = [this](std::int64_t id, const HttpResponse& response) {
     send(kAnswerChannel, encode_answer(id, response));
   };
@@ -110,7 +119,7 @@ void LcmFront::publish_refusal(const std::string& origin, const Frame* frame, co
 }
 
 void LcmFront::send(const char* channel, const std::vector<std::uint8_t>& bytes) {
-  if (Status sent = bus_->publish(channel, bytes); !sent)
+  if (Status sent = sender_->publish(channel, bytes); !sent)
     spdlog::warn("{} could not be published: {}", channel, sent.error().text());
   else
     ++statistics_.published_lcm;

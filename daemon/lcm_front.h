@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "api/http_message.h"
-#include "api/lcm_bus.h"
+#include "api/lcm_sender.h"
 #include "daemon/journal.h"
+#include "daemon/lcm_receiver.h"
 #include "daemon/robots.h"
 #include "daemon/statistics.h"
 #include "daemon/verifications.h"
@@ -17,18 +18,21 @@
 
 namespace anchord {
 
-/// The daemon on LCM: frames and questions in, the best world, answers and refusals out.
+/// The daemon on LCM: frames and questions in, the best world, answers and refusals out. What comes
+/// in is heard by another process; what goes out goes out from this one, through a connection that
+/// reads nothing, so that the two cannot harm each other.
 class LcmFront {
  public:
   /// What answers the target of a question; called on a thread of the front's own.
   using Answerer = std::function<HttpResponse(const HttpTarget&)>;
 
-  /// Nothing is received before start(). `bus` must be open and not started.
-  LcmFront(std::unique_ptr<LcmBus> bus, Statistics& statistics);
+  /// Nothing is received before start().
+  LcmFront(std::unique_ptr<LcmSender> sender, std::unique_ptr<LcmReceiver> receiver,
+           Statistics& statistics);
   LcmFront(const LcmFront&) = delete;
   LcmFront& operator=(const LcmFront&) = delete;
 
-  Status start(Journal& journal, Verifications& verifications, Robots& robots, Answerer answerer);
+  void start(Journal& journal, Verifications& verifications, Robots& robots, Answerer answerer);
   /// Receives no more, and answers the questions that wait; the journal may go then.
   void stop();
 
@@ -42,7 +46,8 @@ class LcmFront {
   /// `frame` is null if it could not be read. Safe from any thread.
   void publish_refusal(const std::string& origin, const Frame* frame, const Error& why);
 
-  const std::string& url() const { return bus_->url(); }
+  const std::string& url() const { return sender_->url(); }
+  const LcmReceiver::Counters& received() const { return receiver_->counters(); }
 
  private:
   void receive_frame(std::span<const std::uint8_t> bytes, Journal& journal);
@@ -50,15 +55,17 @@ class LcmFront {
   void receive_trigger(std::span<const std::uint8_t> bytes, Verifications& verifications);
   void receive_result(std::span<const std::uint8_t> bytes, Verifications& verifications);
   void receive_pose(std::span<const std::uint8_t> bytes, Verifications& verifications);
+  void receive_refusal(const char* channel, const Error& why);
   void refuse(const char* channel, const Error& why);
   void receive_query(std::span<const std::uint8_t> bytes, const Answerer& answerer);
   void send(const char* channel, const std::vector<std::uint8_t>& bytes);
 
-  std::unique_ptr<LcmBus> bus_;
+  std::unique_ptr<LcmSender> sender_;
+  std::unique_ptr<LcmReceiver> receiver_;
   Statistics& statistics_;
-  SequenceGaps gaps_;        // of the bus' thread
+  SequenceGaps gaps_;        // of the receiver's thread
   std::int64_t worlds_ = 0;  // of the thread that calls publish_world()
-  // They end before the bus does. What takes long must not keep frames from being received.
+  // They end before the sender does. What takes long must not keep frames from being received.
   Worker publisher_, refusals_, questions_, triggers_, tasks_;
 };
 

@@ -21,6 +21,7 @@ void LcmFront::receive_event(std::span<const std::uint8_t> bytes, Journal& journ
   if (!message) return refuse(kEventChannel, message.error());
   Submission submission{{}, kEventChannel, false, {}};
   submission.events = {with_robot(std::move(message->event), robots)};
+  submission.bytes = bytes.size();
   if (!journal.submit(std::move(submission)))
     refuse(kEventChannel, {ErrorCode::kUnavailable, "", "too much waits to be applied"});
 }

@@ -9,8 +9,10 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string_view>
 #include <thread>
 
+#include "daemon/lcm_child.h"
 #include "daemon/service.h"
 #include "knowledge/configuration.h"
 
@@ -66,6 +68,8 @@ int serve(const anchord::Knowledge& knowledge, const anchord::ServiceOptions& op
 }  // namespace
 
 int main(int argc, char** argv) try {
+  if (argc == 3 && std::string_view(argv[1]) == anchord::kReceiveLcm)  // only ever by itself
+    return anchord::receive_lcm(argv[2]);
   CLI::App app{"The semantic world model of a robot: detections in, beliefs out."};
   std::string config = ANCHORD_CONFIG;
   anchord::ServiceOptions options;

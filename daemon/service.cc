@@ -19,10 +19,12 @@ double seconds() {
 Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge, const ServiceOptions& options) {
   auto log = FrameLog::open(options.data_directory);
   if (!log) return log.error();
-  auto bus = LcmBus::open(options.lcm_url);
-  if (!bus) return bus.error();
-  std::unique_ptr<Service> service(
-      new Service(std::move(knowledge), options, std::move(*log), std::move(*bus)));
+  auto sender = LcmSender::open(options.lcm_url);
+  if (!sender) return sender.error();
+  auto receiver = LcmReceiver::open(options.lcm_receiver, (*sender)->url());
+  if (!receiver) return receiver.error();
+  std::unique_ptr<Service> service(new Service(std::move(knowledge), options, *std::move(log),
+                                               *std::move(sender), *std::move(receiver)));
   auto http = HttpServer::start(options.http_address, http_routes(service->backend()));
   if (!http) return http.error();
   service->http_ = std::move(*http);
@@ -31,9 +33,9 @@ Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge, const Servic
 }
 
 Service::Service(Knowledge knowledge, const ServiceOptions& options, std::unique_ptr<FrameLog> log,
-                 std::unique_ptr<LcmBus> bus)
+                 std::unique_ptr<LcmSender> sender, std::unique_ptr<LcmReceiver> receiver)
     : options_(options), began_(seconds()) {
-  lcm_ = std::make_unique<LcmFront>(std::move(bus), statistics_);
+  lcm_ = std::make_unique<LcmFront>(std::move(sender), std::move(receiver), statistics_);
   World world(std::move(knowledge));
   Journal::Hooks hooks;
   hooks.applied = [this, background = world.background()](std::shared_ptr<const Belief> belief) {
@@ -68,9 +70,7 @@ Status Service::start(const std::atomic<bool>& cancelled) {
   const auto answerer = [backend = backend()](const HttpTarget& target) {
     return answer_get(target, backend);
   };
-  // All subscriptions are made before anything can be published.
-  if (Status received = lcm_->start(*journal_, *verifications_, robots_, answerer); !received)
-    return received;
+  lcm_->start(*journal_, *verifications_, robots_, answerer);
   journal_->start();
   verifications_->start();
   ready_ = true;
@@ -107,8 +107,17 @@ StatusSources Service::sources() const {
   std::string address = options_.http_address;
   const HttpServer* http = listening_;
   if (http) address = address.substr(0, address.rfind(':') + 1) + std::to_string(http->port());
-  return {statistics_, times_,  *journal_, *verifications_,   http, options_.data_directory,
-          lcm_->url(), address, ready_,    seconds() - began_};
+  return {statistics_,
+          times_,
+          *journal_,
+          *verifications_,
+          http,
+          lcm_->received(),
+          options_.data_directory,
+          lcm_->url(),
+          address,
+          ready_,
+          seconds() - began_};
 }
 
 }  // namespace anchord

@@ -18,6 +18,9 @@ struct ServiceOptions {
   std::string data_directory = "anchord-data";
   std::string lcm_url;  ///< empty: LCM's own default with ttl 0
   std::string http_address = "127.0.0.1:7780";
+  /// The program that receives LCM for this one: its main() calls receive_lcm(). Itself, so that
+  /// the two are of one version though another was installed meanwhile.
+  std::string lcm_receiver = "/proc/self/exe";
 };
 
 /// The daemon: owns the journal and its fronts, in the order in which they depend on each other.
@@ -25,6 +28,7 @@ class Service {
  public:
   /// Takes the log, the port and the LCM network, or says what is in the way; nothing is served
   /// or received yet but 503.
+  /// From a thread that lives as long as the service: the process that receives LCM ends with it.
   static Result<std::unique_ptr<Service>> open(Knowledge knowledge, const ServiceOptions& options);
   ~Service();
   Service(const Service&) = delete;
@@ -39,7 +43,7 @@ class Service {
 
  private:
   Service(Knowledge knowledge, const ServiceOptions& options, std::unique_ptr<FrameLog> log,
-          std::unique_ptr<LcmBus> bus);
+          std::unique_ptr<LcmSender> sender, std::unique_ptr<LcmReceiver> receiver);
   HttpBackend backend();
   StatusSources sources() const;
 

@@ -75,6 +75,11 @@ HttpResponse status_answer(const StatusSources& from) {
                    {"refused", s.refused.load()},   {"overrun", s.overrun.load()},
                    {"late", s.late.load()},         {"lost", s.lost.load()},
                    {"cut", belief->cut_frames}};
+  const Intake::State waiting = from.journal.waiting();
+  out["queue"] = {{"frames", waiting.frames},
+                  {"capacity", Intake::kFrames},
+                  {"overloaded", waiting.overloaded},
+                  {"overloaded_s", waiting.overloaded_s}};
   out["update_us"] = {{"median", times.median_us}, {"p99", times.p99_us}, {"max", times.max_us}};
   out["log"] = {{"directory", from.data_directory},
                 {"frames", from.journal.logged_frames()},
@@ -84,7 +89,11 @@ HttpResponse status_answer(const StatusSources& from) {
   out["lcm"] = {{"url", from.lcm_url},
                 {"frames", s.received_lcm.load()},
                 {"refused", s.refused_lcm.load()},
-                {"published", s.published_lcm.load()}};
+                {"published", s.published_lcm.load()},
+                {"receiving", from.lcm.receiving.load()},
+                {"restarts", from.lcm.restarts.load()},
+                {"dropped", from.lcm.dropped.load()},
+                {"dropped_by_kernel", from.lcm.dropped_by_kernel.load()}};
   const auto [queued, issued] = from.verifications.open();
   out["verifications"] = {{"queued", queued}, {"issued", issued}};
   out["http"] = {{"address", from.http_address}};
@@ -111,6 +120,10 @@ HttpResponse metrics_answer(const StatusSources& from) {
   out.add("frames_repeated_total", "counter", "frames sent again", s.repeated.load());
   out.add("frames_refused_total", "counter", "frames refused", s.refused.load());
   out.add("frames_overrun_total", "counter", "frames dropped, too many waiting", s.overrun.load());
+  const Intake::State waiting = from.journal.waiting();
+  out.add("queue_frames", "gauge", "frames that wait to be applied", waiting.frames);
+  out.add("overloaded", "gauge", "1 while frames are refused for want of room",
+          waiting.overloaded ? 1 : 0);
   out.add("frames_late_total", "counter", "frames put in place behind newer ones", s.late.load());
   out.add("frames_lost_total", "counter", "gaps in publishers' numbering", s.lost.load());
   out.add("frames_cut_total", "counter", "frames whose budget left out hypotheses",
@@ -120,6 +133,13 @@ HttpResponse metrics_answer(const StatusSources& from) {
   out.add("lcm_frames_received_total", "counter", "frames over LCM", s.received_lcm.load());
   out.add("lcm_refused_total", "counter", "messages over LCM refused", s.refused_lcm.load());
   out.add("lcm_published_total", "counter", "messages sent over LCM", s.published_lcm.load());
+  out.add("lcm_receiving", "gauge", "1 while LCM is heard", from.lcm.receiving ? 1 : 0);
+  out.add("lcm_restarts_total", "counter", "starts of the process that receives LCM after it died",
+          from.lcm.restarts.load());
+  out.add("lcm_dropped_total", "counter", "messages dropped, too many waited to be passed on",
+          from.lcm.dropped.load());
+  out.add("lcm_dropped_by_kernel_total", "counter", "datagrams that found no room in the kernel",
+          from.lcm.dropped_by_kernel.load());
   out.add("log_commits_total", "counter", "batches made durable", s.commits.load());
   out.add("log_failures_total", "counter", "batches that failed", s.commit_failures.load());
   out.add("queries_total", "counter", "questions asked", s.queries.load());

@@ -4,6 +4,7 @@
 
 #include "api/http_server.h"
 #include "daemon/journal.h"
+#include "daemon/lcm_receiver.h"
 #include "daemon/statistics.h"
 #include "daemon/verifications.h"
 
@@ -16,6 +17,7 @@ struct StatusSources {
   const Journal& journal;
   const Verifications& verifications;
   const HttpServer* http;  ///< null while it does not listen yet
+  const LcmReceiver::Counters& lcm;
   std::string data_directory, lcm_url, http_address;
   bool ready;
   double uptime_s;

@@ -161,12 +161,13 @@ TEST_F(Text, Hypotheses) {
 TEST_F(Text, Status) {
   const Json answer = Json::parse(R"({"version": "0.1.0", "ready": true,
     "utime": 1700000000000000, "uptime_s": 754.2,
-    "frames": {"accepted": 1200, "repeated": 3, "refused": 2, "late": 0, "lost": 0},
+    "frames": {"accepted": 1200, "repeated": 3, "refused": 2, "overrun": 7, "late": 0, "lost": 0},
+    "queue": {"frames": 4000, "capacity": 4096, "overloaded": true, "overloaded_s": 12.3},
     "objects": 5, "anchors": 7, "expected_count": 4.93, "hypotheses": 12, "clusters": 3,
     "update_us": {"median": 310, "p99": 1200, "max": 4100},
     "log": {"directory": "anchord-data", "frames": 1200, "bytes": 1234567},
     "lcm": {"url": "udpm://239.255.76.67:7667?ttl=0", "frames": 1200, "refused": 0,
-            "published": 1199},
+            "published": 1199, "restarts": 1, "dropped": 0, "dropped_by_kernel": 5},
     "verifications": {"queued": 2, "issued": 1},
     "http": {"address": "127.0.0.1:7780", "connections": 2, "requests": 55, "refused": 0}})");
   EXPECT_EQ(
@@ -174,12 +175,14 @@ TEST_F(Text, Status) {
       "daemon        anchord 0.1.0 at robot:7780, ready\n"
       "up for        13 min\n"
       "newest frame  2023-11-14 22:13:20 UTC\n"
-      "frames        1200 accepted, 3 repeated, 2 refused, 0 late, 0 lost\n"
+      "frames        1200 accepted, 3 repeated, 2 refused, 7 overrun, 0 late, 0 lost\n"
+      "queue         4000 of 4096 frames, overloaded for 12 s\n"
       "belief        5 objects, 7 anchors, 4.93 expected, 12 hypotheses, 3 clusters\n"
       "update        median 0.31 ms, p99 1.2 ms, max 4.1 ms\n"
       "log           anchord-data, 1200 frames, 1.2 MB\n"
       "tasks         2 queued, 1 issued\n"
-      "lcm           udpm://239.255.76.67:7667?ttl=0, 1200 frames, 0 refused, 1199 published\n"
+      "lcm           udpm://239.255.76.67:7667?ttl=0, 1200 frames, 0 refused, 1199 published, 1 restarts, "
+      "0 dropped, 5 dropped by the kernel\n"
       "http          127.0.0.1:7780, 2 connections, 55 requests, 0 refused\n");
 }
 

@@ -39,6 +39,7 @@ class DaemonProcess {
   bool ready();
   /// The port, once ready().
   std::uint16_t port() const { return port_; }
+  pid_t pid() const { return pid_; }
   /// What it has written on standard error so far.
   std::string errors() const;
 

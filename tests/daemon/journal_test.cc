@@ -292,11 +292,14 @@ TEST_F(JournalTest, TooManyMayNotWait) {
   bool called = false;
   EXPECT_FALSE(
       journal->submit({{frame_number(2)}, "test", false, [&](const auto&) { called = true; }}));
+  EXPECT_EQ(journal->waiting().frames, Journal::kQueue);
+  EXPECT_TRUE(journal->waiting().overloaded);
   journal->start();
   EXPECT_EQ(first.get()->repeated, half.size() - 1);
   EXPECT_EQ(second.get()->repeated, half.size());
   EXPECT_FALSE(called);
   EXPECT_TRUE(apply(*journal, {frame_number(2)}).ok()) << "there is room again";
+  EXPECT_FALSE(journal->waiting().overloaded);
 }
 
 TEST_F(JournalTest, TheEndAnswersEverything) {

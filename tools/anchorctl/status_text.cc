@@ -44,6 +44,22 @@ std::string stored(const Json& log) {
                size ? glued(bytes(*size)) : "");
 }
 
+std::string waiting(const Json& queue) {
+  const auto frames = number(queue, "frames"), capacity = number(queue, "capacity");
+  if (!frames || !capacity) return "";
+  const std::string filled = decimal(*frames, 0) + " of " + decimal(*capacity, 0) + " frames";
+  const auto time_s = number(queue, "overloaded_s");
+  return after(filled, flag(queue, "overloaded") && time_s
+                           ? glued("overloaded for " + duration(*time_s))
+                           : "");
+}
+
+std::string heard(const Json& lcm) {
+  const auto lost = number(lcm, "dropped_by_kernel");
+  return after(counters(lcm, {"frames", "refused", "published", "restarts", "dropped"}),
+               lost ? glued(decimal(*lost, 0) + " dropped by the kernel") : "");
+}
+
 }  // namespace
 
 std::string status_text(const Json& answer, const std::string& server, const Style& style) {
@@ -56,13 +72,14 @@ std::string status_text(const Json& answer, const std::string& server, const Sty
   if (const auto uptime_s = number(answer, "uptime_s")) add("up for", duration(*uptime_s));
   add("newest frame", date_and_time(utime(answer, "utime")));
   add("frames", counters(items(answer, "frames"),
-                         {"accepted", "repeated", "refused", "late", "lost", "cut"}));
+                         {"accepted", "repeated", "refused", "overrun", "late", "lost", "cut"}));
+  add("queue", waiting(items(answer, "queue")));
   add("belief", belief(answer));
   add("update", update_times(items(answer, "update_us")));
   add("log", stored(items(answer, "log")));
   add("tasks", counters(items(answer, "verifications"), {"queued", "issued"}));
   const Json& lcm = items(answer, "lcm");
-  add("lcm", after(text(lcm, "url", ""), counters(lcm, {"frames", "refused", "published"})));
+  add("lcm", after(text(lcm, "url", ""), heard(lcm)));
   const Json& http = items(answer, "http");
   add("http",
       after(text(http, "address", ""), counters(http, {"connections", "requests", "refused"})));
