@@ -170,20 +170,20 @@ TEST_F(Text, Status) {
             "published": 1199, "restarts": 1, "dropped": 0, "dropped_by_kernel": 5},
     "verifications": {"queued": 2, "issued": 1},
     "http": {"address": "127.0.0.1:7780", "connections": 2, "requests": 55, "refused": 0}})");
-  EXPECT_EQ(
-      status_text(answer, "robot:7780", {}),
-      "daemon        anchord 0.1.0 at robot:7780, ready\n"
-      "up for        13 min\n"
-      "newest frame  2023-11-14 22:13:20 UTC\n"
-      "frames        1200 accepted, 3 repeated, 2 refused, 7 overrun, 0 late, 0 lost\n"
-      "queue         4000 of 4096 frames, overloaded for 12 s\n"
-      "belief        5 objects, 7 anchors, 4.93 expected, 12 hypotheses, 3 clusters\n"
-      "update        median 0.31 ms, p99 1.2 ms, max 4.1 ms\n"
-      "log           anchord-data, 1200 frames, 1.2 MB\n"
-      "tasks         2 queued, 1 issued\n"
-      "lcm           udpm://239.255.76.67:7667?ttl=0, 1200 frames, 0 refused, 1199 published, 1 restarts, "
-      "0 dropped, 5 dropped by the kernel\n"
-      "http          127.0.0.1:7780, 2 connections, 55 requests, 0 refused\n");
+  EXPECT_EQ(status_text(answer, "robot:7780", {}),
+            "daemon        anchord 0.1.0 at robot:7780, ready\n"
+            "up for        13 min\n"
+            "newest frame  2023-11-14 22:13:20 UTC\n"
+            "frames        1200 accepted, 3 repeated, 2 refused, 7 overrun, 0 late, 0 lost\n"
+            "queue         4000 of 4096 frames, overloaded for 12 s\n"
+            "belief        5 objects, 7 anchors, 4.93 expected, 12 hypotheses, 3 clusters\n"
+            "update        median 0.31 ms, p99 1.2 ms, max 4.1 ms\n"
+            "log           anchord-data, 1200 frames, 1.2 MB\n"
+            "tasks         2 queued, 1 issued\n"
+            "lcm           udpm://239.255.76.67:7667?ttl=0, 1200 frames, 0 refused, 1199 "
+            "published, 1 restarts, "
+            "0 dropped, 5 dropped by the kernel\n"
+            "http          127.0.0.1:7780, 2 connections, 55 requests, 0 refused\n");
 }
 
 TEST_F(Text, AnswersOfAnotherShapeAreNoAccident) {
