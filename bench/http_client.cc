@@ -21,6 +21,7 @@ struct HttpClient::Connection {
   asio::io_context context;
   asio::ip::tcp::socket socket{context};
   boost::beast::flat_buffer buffer;
+  std::string answer;
 
   int ask(http::verb verb, const std::string& target, std::string body) {
     http::request<http::string_body> request(verb, target, 11, std::move(body));
@@ -35,6 +36,7 @@ struct HttpClient::Connection {
       std::fprintf(stderr, "%s: %s\n", target.c_str(), error.message().c_str());
       std::exit(1);
     }
+    answer = std::move(response.body());
     return static_cast<int>(response.result_int());
   }
 };
@@ -58,6 +60,8 @@ int HttpClient::get(const std::string& target) {
 int HttpClient::post(const std::string& target, const std::string& json) {
   return connection_->ask(http::verb::post, target, json);
 }
+
+const std::string& HttpClient::body() const { return connection_->answer; }
 
 std::uint16_t free_port() {
   asio::io_context context;

@@ -17,6 +17,8 @@ class HttpClient {
   /// The status of the answer, which has been read whole.
   int get(const std::string& target);
   int post(const std::string& target, const std::string& json);
+  /// Of the latest answer.
+  const std::string& body() const;
 
  private:
   struct Connection;

@@ -18,8 +18,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr char kLcmUrl[] = "udpm://239.255.76.67:17699?ttl=0";
-
 }  // namespace
 
 void fail(const std::string& message) {

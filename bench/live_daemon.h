@@ -18,6 +18,9 @@
 
 namespace anchord::bench {
 
+/// Where its daemons and robots meet.
+inline constexpr char kLcmUrl[] = "udpm://239.255.76.67:17699?ttl=0";
+
 /// Ends the program with a message.
 [[noreturn]] void fail(const std::string& message);
 

@@ -185,12 +185,13 @@ int receive_lcm(const std::string& url) {
     bus = *std::move(opened);
   }
   char begin = 0;
-  if (!send_record({LcmRecord::Kind::kReady}) || recv(kDaemonSocket, &begin, 1, 0) != 1) return 1;
+  if (!send_record({LcmRecord::Kind::kJoined}) || recv(kDaemonSocket, &begin, 1, 0) != 1) return 1;
   Outbox outbox;
   if (bus) {
     if (const Status heard = subscribe(*bus, outbox); !heard) return fail(heard.error());
     bus->start();
   }
+  outbox.add({LcmRecord::Kind::kHears});
   std::thread([] {
     char nothing = 0;
     while (recv(kDaemonSocket, &nothing, 1, 0) > 0) continue;

@@ -33,16 +33,8 @@ Result<std::unique_ptr<LcmReceiver>> LcmReceiver::open(std::string program, std:
   if (wake < 0) return Error{ErrorCode::kIo, "lcm", "cannot make an eventfd: too many open files"};
   std::unique_ptr<LcmReceiver> receiver(new LcmReceiver(std::move(program), std::move(url), wake));
   if (Status spawned = receiver->spawn(); !spawned) return spawned.error();
-  const auto give_up = Clock::now() + kOpening;
-  while (!receiver->counters_.receiving && receiver->why_.empty()) {
-    pollfd file{receiver->child_->socket(), POLLIN, 0};
-    const auto left = std::chrono::duration_cast<milliseconds>(give_up - Clock::now());
-    if (left.count() <= 0 || poll(&file, 1, static_cast<int>(left.count())) == 0)
-      receiver->why_ = "the process that receives LCM does not come up";
-    else
-      receiver->pass_on();
-  }
-  if (!receiver->counters_.receiving) return Error{ErrorCode::kIo, "lcm", receiver->why_};
+  receiver->await([&] { return receiver->joined_; });
+  if (!receiver->joined_) return Error{ErrorCode::kIo, "lcm", receiver->why_};
   return receiver;
 }
 
@@ -56,7 +48,24 @@ LcmReceiver::~LcmReceiver() {
 
 void LcmReceiver::start(Handler handler) {
   handler_ = std::move(handler);
+  begin();
+  await([this] { return counters_.receiving.load(); });
   thread_ = std::thread([this] { run(); });
+}
+
+/// Passes on until `condition` holds or the child has ended, for which there is a reason then.
+void LcmReceiver::await(const std::function<bool()>& condition) {
+  const auto give_up = Clock::now() + kOpening;
+  while (child_ && !condition()) {
+    pollfd file{child_->socket(), POLLIN, 0};
+    const auto left = std::chrono::duration_cast<milliseconds>(give_up - Clock::now());
+    if (left.count() > 0 && poll(&file, 1, static_cast<int>(left.count())) != 0) {
+      pass_on();
+    } else {
+      why_ = "the process that receives LCM does not come up";
+      ended();
+    }
+  }
 }
 
 void LcmReceiver::stop() {
@@ -73,6 +82,7 @@ bool LcmReceiver::woken_within(milliseconds time) const {
 Status LcmReceiver::spawn() {
   records_ = {};
   why_.clear();
+  joined_ = false;
   spawned_ = Clock::now();
   auto child = ChildProcess::start(program_, {kReceiveLcm, url_}, kDaemonSocket);
   if (!child) return child.error();
@@ -80,9 +90,12 @@ Status LcmReceiver::spawn() {
   return Done{};
 }
 
-void LcmReceiver::run() {
+void LcmReceiver::begin() {
   constexpr char kBegin = 1;
-  if (child_) send(child_->socket(), &kBegin, 1, MSG_NOSIGNAL);
+  send(child_->socket(), &kBegin, 1, MSG_NOSIGNAL);  // if it has ended that is seen elsewhere
+}
+
+void LcmReceiver::run() {
   while (true) {
     if (child_) {
       pollfd files[2] = {{wake_, POLLIN, 0}, {child_->socket(), POLLIN, 0}};
@@ -98,7 +111,7 @@ void LcmReceiver::run() {
     if (woken_within(pause)) break;
     ++counters_.restarts;
     if (Status spawned = spawn(); spawned) {
-      send(child_->socket(), &kBegin, 1, MSG_NOSIGNAL);
+      begin();
     } else {
       why_ = spawned.error().text();
       ended();
@@ -128,7 +141,10 @@ void LcmReceiver::pass_on() {
 
 void LcmReceiver::take(const LcmRecord& record) {
   switch (record.kind) {
-    case LcmRecord::Kind::kReady:
+    case LcmRecord::Kind::kJoined:
+      joined_ = true;
+      return;
+    case LcmRecord::Kind::kHears:
       if (std::exchange(failures_, 0) > 0) spdlog::info("LCM is received again");
       counters_.receiving = true;
       return;

@@ -19,7 +19,7 @@ namespace anchord {
 /// bring liblcm down, and then it is that process that dies. It is started again at once.
 class LcmReceiver {
  public:
-  /// Called on the receiver's thread with each message and refusal.
+  /// Called with each message and refusal: on the receiver's thread, or in start().
   using Handler = std::function<void(const LcmRecord&)>;
 
   /// Since the start. Read by any thread.
@@ -38,7 +38,7 @@ class LcmReceiver {
   LcmReceiver(const LcmReceiver&) = delete;
   LcmReceiver& operator=(const LcmReceiver&) = delete;
 
-  /// Starts receiving, once.
+  /// Starts receiving, once. What is sent after it has returned is heard.
   void start(Handler handler);
   /// Ends receiving for good and returns when the handler does not run any more. Not from it.
   void stop();
@@ -50,6 +50,8 @@ class LcmReceiver {
 
   LcmReceiver(std::string program, std::string url, int wake);
   Status spawn();
+  void begin();
+  void await(const std::function<bool()>& condition);
   void run();
   void pass_on();
   void take(const LcmRecord& record);
@@ -66,6 +68,7 @@ class LcmReceiver {
   LcmRecords records_;
   std::vector<std::uint8_t> buffer_;
   Clock::time_point spawned_, told_;
+  bool joined_ = false;
   int failures_ = 0;  ///< starts in a row that came to nothing
   std::string why_;   ///< of the last one
 };

@@ -20,13 +20,14 @@ inline constexpr std::array kReceivedChannels = {kDetectionsChannel, kEventChann
 /// What the process that receives LCM tells the daemon, over a stream socket.
 struct LcmRecord {
   enum class Kind : std::uint8_t {
-    kReady,    ///< it has joined the network
+    kJoined,   ///< it has joined the network, and waits to begin
     kFailed,   ///< it cannot, and ends; bytes: why
+    kHears,    ///< it passes on what is sent from now on
     kMessage,  ///< bytes: of a message that the daemon's decoder takes
     kRefused,  ///< bytes: of a Refusal
     kDrops,    ///< bytes: of LcmDrops
   };
-  Kind kind = Kind::kReady;
+  Kind kind = Kind::kJoined;
   std::uint8_t channel = 0;  ///< an index of kReceivedChannels; of messages and refusals
   std::span<const std::uint8_t> bytes = {};
 };

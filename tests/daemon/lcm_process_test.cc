@@ -107,20 +107,24 @@ std::string program(const TestFolder& folder, const std::string& script) {
   return path;
 }
 
-constexpr char kSayReady[] = "printf '\\000\\000\\000\\000\\000\\000\\000\\000' >&3\n";
+/// Records without bytes, of the kinds kJoined and kHears.
+constexpr char kJoins[] = "printf '\\000\\000\\000\\000\\000\\000\\000\\000' >&3\n",
+               kBegins[] = "head -c 1 <&3 >/dev/null\n",
+               kHears[] = "printf '\\000\\000\\000\\000\\002\\000\\000\\000' >&3\n";
 
 TEST(LcmReceiver, PausesLongerAndLongerWhereItDoesNotComeUp) {
   TestFolder folder;
   const std::string flag = folder / "flag";
   auto receiver =
-      LcmReceiver::open(program(folder, "[ -e " + flag + " ] && exit 1\ntouch " + flag + "\n" +
-                                            kSayReady + "head -c 1 <&3 >/dev/null\n"),
+      LcmReceiver::open(program(folder, "[ -e " + flag + " ] && exit 1\n" + kJoins + kBegins +
+                                            "touch " + flag + "\n" + kHears + "exec sleep 0.1\n"),
                         "memq://");
   ASSERT_TRUE(receiver.ok()) << receiver.error().text();
   const auto& counters = (*receiver)->counters();
-  EXPECT_TRUE(counters.receiving);
+  EXPECT_FALSE(counters.receiving);
   const auto begin = Clock::now();
   (*receiver)->start([](const LcmRecord&) {});
+  EXPECT_TRUE(std::filesystem::exists(flag)) << "it returns once the program says that it hears";
   ASSERT_TRUE(eventually([&] { return counters.restarts >= 5; }));
   // 100, 200, 400 and 800 ms lie between the second start and the sixth: no sleep is shorter than
   // it was asked to be.

@@ -20,7 +20,7 @@ struct Read {
 };
 
 TEST(LcmRecords, ComeThroughHoweverTheStreamIsCut) {
-  std::vector<Read> written = {{Kind::kReady, 0, {}},
+  std::vector<Read> written = {{Kind::kJoined, 0, {}},
                                {Kind::kMessage, 0, Bytes(100'000, 7)},
                                {Kind::kMessage, 5, {1}},
                                {Kind::kMessage, 3, {}},
@@ -51,7 +51,7 @@ TEST(LcmRecords, ComeThroughHoweverTheStreamIsCut) {
 TEST(LcmRecords, NonsenseIsAnError) {
   const Bytes message(10);
   for (const LcmRecord& wrong :
-       {LcmRecord{static_cast<Kind>(5), 0, message},
+       {LcmRecord{static_cast<Kind>(6), 0, message},
         LcmRecord{Kind::kMessage, static_cast<std::uint8_t>(kReceivedChannels.size()), message}}) {
     Bytes stream;
     append(wrong, stream);
