@@ -28,4 +28,4 @@ install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 configure_file(${CMAKE_SOURCE_DIR}/daemon/anchord.service.in ${CMAKE_BINARY_DIR}/anchord.service
                @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/anchord.service DESTINATION lib/systemd/system)
-install(FILES ${CMAKE_SOURCE_DIR}/daemon/60-anchord.conf DESTINATION lib/sysctl.d)
+install(FILES ${CMAKE_SOURCE_DIR}/daemon/20-anchord.conf DESTINATION lib/sysctl.d)

@@ -95,6 +95,8 @@ bool send_record(const LcmRecord& record) {
 /// What waits for the daemon. It is filled without ever waiting, so that liblcm goes on reading.
 class Outbox {
  public:
+  Outbox() { waiting_.reserve(kWaitingBytes); }
+
   void add(const LcmRecord& record) {
     {
       const std::lock_guard lock(mutex_);
@@ -110,6 +112,7 @@ class Outbox {
   /// Sends what is added, and how much was dropped, until nobody reads it any more.
   void send_on() {
     std::vector<std::uint8_t> going;
+    going.reserve(kWaitingBytes);
     std::uint64_t kernel_before = 0;
     auto told = std::chrono::steady_clock::now();
     do {
