@@ -173,12 +173,13 @@ void LcmReceiver::take(const LcmRecord& record) {
 void LcmReceiver::ended() {
   const std::string how = child_ ? child_->end() : "not started";
   child_.reset();
-  if (counters_.receiving.exchange(false)) {
+  counters_.receiving = false;
+  if (std::exchange(joined_, false)) {
     if (Clock::now() - told_ < kBetweenWarnings) return;
     told_ = Clock::now();
     spdlog::warn(
-        "the process that receives LCM has died ({}) and is started again; {} times so far", how,
-        counters_.restarts + 1);
+        "the process that receives LCM has died ({}) and is started again; {} times so far",
+        why_.empty() ? how : why_, counters_.restarts + 1);
     return;
   }
   if (why_.empty()) why_ = "the process that receives LCM ended at once (" + how + ")";
