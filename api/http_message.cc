@@ -61,6 +61,8 @@ Kind kind_of(ErrorCode code) {
       return {413, "too_large"};
     case ErrorCode::kUnavailable:
       return {503, "unavailable"};
+    case ErrorCode::kStorage:
+      return {507, "insufficient_storage"};
     case ErrorCode::kIo:
       break;
   }

@@ -41,7 +41,7 @@ struct HttpResponse {
 HttpResponse http_error(int status, std::string_view code, std::string_view message,
                         std::string_view field = {});
 /// The same for a refusal of the engine or the store: kInvalid 400, kUnknown 404, kConflict 409,
-/// kTooLarge 413, kUnavailable 503, kIo 500.
+/// kTooLarge 413, kUnavailable 503, kIo 500, kStorage 507.
 HttpResponse http_error(const Error& error);
 
 /// Answers a request. It may be called from any thread, at any time, also after the server has

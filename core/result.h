@@ -16,6 +16,7 @@ enum class ErrorCode {
   kTooLarge,     ///< over a limit: 413
   kUnavailable,  ///< cannot be answered now, try again: 503
   kIo,           ///< the machine failed (disk, network): 500
+  kStorage,      ///< it cannot be stored (disk full, or it fails), try again: 507
 };
 
 /// A refusal: what is wrong (`message`, one sentence, says what would be right) and where

@@ -20,7 +20,19 @@ using sqlite::Transaction;
 /// Somebody who reads the database may hold it for a moment.
 constexpr int kBusyMs = 1000;
 
-Error io(std::string message) { return {ErrorCode::kIo, "", std::move(message)}; }
+/// What was being done, before what SQLite says of it.
+Error while_doing(const std::string& what, const Error& error) {
+  return {error.code, error.field, "cannot " + what + ": " + error.message};
+}
+
+/// The same of what had to be written.
+Error not_stored(const std::string& what, const Error& error) {
+  return {ErrorCode::kStorage, "", while_doing(what, error).message};
+}
+
+Error lost_already() {
+  return {ErrorCode::kStorage, "", "the batch has failed already and must be rolled back"};
+}
 
 }  // namespace
 
@@ -32,6 +44,8 @@ struct FrameLog::Store {
   bool failed;  ///< the open batch is lost
   std::int64_t last_sequence, committed_sequence;
 
+  static Result<std::unique_ptr<Store>> prepare(DirectoryLock lock, Database database,
+                                                const std::string& path, std::int64_t max_bytes);
   /// SQLite may have ended the transaction by itself; going on would lose the batch's beginning.
   bool batch_lost() const { return failed || (batch && !database.in_transaction()); }
 };
@@ -49,70 +63,78 @@ Result<std::unique_ptr<FrameLog>> FrameLog::open(const std::string& directory,
   auto database = Database::open(path);
   if (!database) return database.error();
   sqlite3_busy_timeout(database->handle(), kBusyMs);
-  if (auto ready = prepare_log(*database, path, max_bytes); !ready) return ready.error();
+  auto store = Store::prepare(*std::move(lock), *std::move(database), path, max_bytes);
+  if (store) return std::unique_ptr<FrameLog>(new FrameLog(*std::move(store)));
+  if (store.error().code == ErrorCode::kConflict) return store.error();
+  return while_doing("open the frame log " + path, store.error());
+}
 
+Result<std::unique_ptr<FrameLog::Store>> FrameLog::Store::prepare(DirectoryLock lock,
+                                                                  Database database,
+                                                                  const std::string& path,
+                                                                  std::int64_t max_bytes) {
+  if (auto ready = prepare_log(database, path, max_bytes); !ready) return ready.error();
   auto insert =
-      Statement::prepare(*database,
+      Statement::prepare(database,
                          "INSERT INTO frames (sequence, utime, robot, sensor, bytes, kind, work) "
                          "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
   if (!insert) return insert.error();
-  auto find = Statement::prepare(*database,
+  auto find = Statement::prepare(database,
                                  "SELECT bytes = ?4 FROM frames "
                                  "WHERE robot = ?1 AND sensor = ?2 AND utime = ?3 AND kind = 0");
   if (!find) return find.error();
   auto find_event = Statement::prepare(
-      *database, "SELECT 1 FROM frames WHERE utime = ?1 AND kind = 1 AND bytes = ?2");
+      database, "SELECT 1 FROM frames WHERE utime = ?1 AND kind = 1 AND bytes = ?2");
   if (!find_event) return find_event.error();
   auto put_task = Statement::prepare(
-      *database, "INSERT OR REPLACE INTO tasks (id, ended, bytes) VALUES (?1, ?2, ?3)");
+      database, "INSERT OR REPLACE INTO tasks (id, ended, bytes) VALUES (?1, ?2, ?3)");
   if (!put_task) return put_task.error();
   auto drop_tasks = Statement::prepare(
-      *database, "DELETE FROM tasks WHERE ended = 1 AND id <= (SELECT max(id) FROM tasks) - ?1");
+      database, "DELETE FROM tasks WHERE ended = 1 AND id <= (SELECT max(id) FROM tasks) - ?1");
   if (!drop_tasks) return drop_tasks.error();
-  auto read_tasks = Statement::prepare(*database, "SELECT id, bytes FROM tasks ORDER BY id");
+  auto read_tasks = Statement::prepare(database, "SELECT id, bytes FROM tasks ORDER BY id");
   if (!read_tasks) return read_tasks.error();
   auto latest = Statement::prepare(
-      *database, "SELECT max(utime) FROM frames WHERE robot = ?1 AND sensor = ?2 AND kind = 0");
+      database, "SELECT max(utime) FROM frames WHERE robot = ?1 AND sensor = ?2 AND kind = 0");
   if (!latest) return latest.error();
   auto read =
-      Statement::prepare(*database,
+      Statement::prepare(database,
                          "SELECT sequence, utime, robot, sensor, bytes, kind, work FROM frames "
                          "WHERE sequence >= ?1 ORDER BY sequence");
   if (!read) return read.error();
-  auto last = database->read_integer("SELECT coalesce(max(sequence), 0) FROM frames");
+  auto last = database.read_integer("SELECT coalesce(max(sequence), 0) FROM frames");
   if (!last) return last.error();
 
-  auto store = std::unique_ptr<Store>(new Store{*std::move(lock),
-                                                *std::move(database),
-                                                *std::move(insert),
-                                                *std::move(find),
-                                                *std::move(find_event),
-                                                *std::move(latest),
-                                                *std::move(read),
-                                                *std::move(put_task),
-                                                *std::move(drop_tasks),
-                                                *std::move(read_tasks),
-                                                {},
-                                                false,
-                                                *last,
-                                                *last});
-  return std::unique_ptr<FrameLog>(new FrameLog(std::move(store)));
+  return std::unique_ptr<Store>(new Store{std::move(lock),
+                                          std::move(database),
+                                          *std::move(insert),
+                                          *std::move(find),
+                                          *std::move(find_event),
+                                          *std::move(latest),
+                                          *std::move(read),
+                                          *std::move(put_task),
+                                          *std::move(drop_tasks),
+                                          *std::move(read_tasks),
+                                          {},
+                                          false,
+                                          *last,
+                                          *last});
 }
 
 Status FrameLog::begin_batch() {
-  if (store_->batch_lost()) return io("the batch has failed already and must be rolled back");
+  if (store_->batch_lost()) return lost_already();
   if (store_->batch) return Done{};
   auto transaction = Transaction::begin(store_->database);
   if (!transaction) {
     store_->failed = true;
-    return transaction.error();
+    return not_stored("write to the frame log", transaction.error());
   }
   store_->batch.emplace(*std::move(transaction));
   return Done{};
 }
 
 Status FrameLog::append(const LoggedFrame& frame) {
-  if (store_->batch_lost()) return io("the batch has failed already and must be rolled back");
+  if (store_->batch_lost()) return lost_already();
   if (frame.sequence <= store_->last_sequence)
     return Error{ErrorCode::kConflict, "sequence",
                  "is " + std::to_string(frame.sequence) + ", and must be above the log's last, " +
@@ -136,15 +158,15 @@ Status FrameLog::append(const LoggedFrame& frame) {
     return Error{ErrorCode::kConflict, "utime",
                  "the log has a frame of this sensor at " + std::to_string(frame.utime)};
   store_->failed = true;
-  return io("cannot append to the frame log: " + step.error().message);
+  return not_stored("append to the frame log", step.error());
 }
 
 Status FrameLog::commit() {
-  if (store_->batch_lost()) return io("the batch has failed already and must be rolled back");
+  if (store_->batch_lost()) return lost_already();
   if (!store_->batch) return Done{};
   if (auto committed = store_->batch->commit(); !committed) {
     store_->failed = true;
-    return io("cannot commit to the frame log: " + committed.error().message);
+    return not_stored("commit to the frame log", committed.error());
   }
   store_->batch.reset();
   store_->committed_sequence = store_->last_sequence;
@@ -168,7 +190,7 @@ Result<FrameLog::Presence> FrameLog::contains(std::string_view robot, std::strin
                  .bind(3, utime)
                  .bind(4, std::span<const std::uint8_t>(bytes))
                  .step();
-  if (!row) return row.error();
+  if (!row) return while_doing("read the frame log", row.error());
   if (!*row) return Presence::kNo;
   return find.integer(0) == 1 ? Presence::kSame : Presence::kDifferent;
 }
@@ -176,7 +198,9 @@ Result<FrameLog::Presence> FrameLog::contains(std::string_view robot, std::strin
 Result<bool> FrameLog::contains_event(Utime utime, const std::vector<std::uint8_t>& bytes) {
   Statement& find = store_->find_event;
   ResetAtEnd reset(find);
-  return find.bind(1, utime).bind(2, std::span<const std::uint8_t>(bytes)).step();
+  auto row = find.bind(1, utime).bind(2, std::span<const std::uint8_t>(bytes)).step();
+  if (!row) return while_doing("read the frame log", row.error());
+  return row;
 }
 
 Status FrameLog::put_task(std::int64_t id, bool ended, const std::vector<std::uint8_t>& bytes) {
@@ -189,7 +213,7 @@ Status FrameLog::put_task(std::int64_t id, bool ended, const std::vector<std::ui
                   .step();
   if (step) return Done{};
   store_->failed = true;
-  return io("cannot keep the task: " + step.error().message);
+  return not_stored("keep the task", step.error());
 }
 
 Status FrameLog::keep_tasks(std::int64_t count) {
@@ -199,7 +223,7 @@ Status FrameLog::keep_tasks(std::int64_t count) {
   auto step = drop.bind(1, count).step();
   if (step) return Done{};
   store_->failed = true;
-  return io("cannot drop old tasks: " + step.error().message);
+  return not_stored("drop old tasks", step.error());
 }
 
 Status FrameLog::for_each_task(
@@ -208,7 +232,7 @@ Status FrameLog::for_each_task(
   ResetAtEnd reset(read);
   for (;;) {
     auto row = read.step();
-    if (!row) return io("cannot read the tasks: " + row.error().message);
+    if (!row) return while_doing("read the tasks", row.error());
     if (!*row || !callback(read.integer(0), read.bytes(1))) return Done{};
   }
 }
@@ -217,7 +241,7 @@ Result<std::optional<Utime>> FrameLog::latest(std::string_view robot, std::strin
   Statement& latest = store_->latest;
   ResetAtEnd reset(latest);
   auto row = latest.bind(1, robot).bind(2, sensor).step();
-  if (!row) return row.error();
+  if (!row) return while_doing("read the frame log", row.error());
   std::optional<Utime> utime;
   if (!latest.is_null(0)) utime = latest.integer(0);
   return utime;
@@ -231,7 +255,7 @@ Status FrameLog::for_each(std::int64_t from_sequence,
   LoggedFrame frame;
   for (;;) {
     auto row = read.step();
-    if (!row) return io("cannot read the frame log: " + row.error().message);
+    if (!row) return while_doing("read the frame log", row.error());
     if (!*row) return Done{};
     frame.sequence = read.integer(0);
     frame.utime = read.integer(1);

@@ -39,8 +39,8 @@ struct LoggedFrame {
 ///
 /// Frames are appended in batches. A frame is durable when the commit() of its batch has returned
 /// without Error: it then survives a kill of the process and a loss of power. After an Error of
-/// append() or commit() nothing of the batch is kept, every further append() and commit() is
-/// refused until rollback(), and the log is usable after that.
+/// append() or commit() (kStorage: the disk is full, or fails) nothing of the batch is kept, every
+/// further append() and commit() is refused until rollback(), and the log is usable after that.
 ///
 /// One thread at a time.
 class FrameLog {

@@ -90,13 +90,15 @@ Status upgrade(Database& database) {
   return transaction->commit();
 }
 
-/// WAL: a commit appends to one file and syncs it once (synchronous=FULL); this connection moves
-/// the pages into the database whenever the WAL has a thousand of them (SQLite's default).
+/// WAL: a commit appends to one file and syncs it once; this connection moves the pages into the
+/// database whenever the WAL has a thousand of them (SQLite's default). EXTRA, before that: a new
+/// database has a rollback journal until it has a WAL. If that came back after a loss of power,
+/// for the directory was not synced, SQLite would undo the database and drop the WAL with it.
 Status configure(Database& database, std::int64_t max_bytes) {
+  if (auto set = database.execute("PRAGMA synchronous=EXTRA"); !set) return set;
   auto mode = database.read_text("PRAGMA journal_mode=WAL");
   if (!mode) return mode.error();
   if (*mode != "wal") return io("the data directory's file system cannot hold a write-ahead log");
-  if (auto set = database.execute("PRAGMA synchronous=FULL"); !set) return set;
   if (max_bytes <= 0) return Done{};
   auto page = database.read_integer("PRAGMA page_size");
   if (!page) return page.error();

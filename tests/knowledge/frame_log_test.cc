@@ -214,7 +214,7 @@ TEST_F(FrameLogTest, AFullDatabaseLosesTheBatchOnly) {
   Status status = Done{};
   while (status.ok() && next < 10'000) status = log->append(frame_number(next++));
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().code, ErrorCode::kIo);
+  EXPECT_EQ(status.error().code, ErrorCode::kStorage);
   EXPECT_TRUE(mentions(status.error(), "full")) << status.error().message;
   // Whether or not SQLite has ended the transaction, the batch is not taken up in its middle.
   EXPECT_FALSE(log->append(frame_number(next)).ok());
@@ -247,7 +247,7 @@ TEST_F(FrameLogTest, AFailingWriteLosesTheBatchOnly) {
       status = (*log)->append(frame_number(next++));
       if (status.ok() && next % 10 == 0) status = (*log)->commit();
     }
-    if (status.ok() || status.error().code != ErrorCode::kIo) _exit(12);
+    if (status.ok() || status.error().code != ErrorCode::kStorage) _exit(12);
     limit.rlim_cur = before;
     setrlimit(RLIMIT_FSIZE, &limit);
     (*log)->rollback();
