@@ -287,6 +287,7 @@ void Journal::roll_back(const Error& why) {
 
 void Journal::refuse(Submission& submission, const Frame* frame, const Error& why) {
   statistics_.refused += submission.frames.size();
+  if (why.code == ErrorCode::kStorage) statistics_.unstored += submission.frames.size();
   if (!frame && submission.frames.size() == 1) frame = &submission.frames.front();
   if (hooks_.refused) hooks_.refused(submission, frame, why);
   if (submission.done) submission.done(why);

@@ -16,6 +16,7 @@ struct Statistics {
   std::atomic<std::uint64_t> accepted{0};  ///< frames applied
   std::atomic<std::uint64_t> repeated{0};  ///< frames that were in the log already
   std::atomic<std::uint64_t> refused{0};   ///< frames, from anywhere
+  std::atomic<std::uint64_t> unstored{0};  ///< of these, those that the disk did not take
   std::atomic<std::uint64_t> refused_lcm{
       0};                                 ///< messages over LCM: frames (of those) and questions
   std::atomic<std::uint64_t> overrun{0};  ///< frames dropped because too many waited

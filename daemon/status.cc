@@ -72,9 +72,9 @@ HttpResponse status_answer(const StatusSources& from) {
            {"clusters", belief->clusters.size()},
            {"dropped_probability", belief->effort.dropped}};
   out["frames"] = {{"accepted", s.accepted.load()}, {"repeated", s.repeated.load()},
-                   {"refused", s.refused.load()},   {"overrun", s.overrun.load()},
-                   {"late", s.late.load()},         {"lost", s.lost.load()},
-                   {"cut", belief->cut_frames}};
+                   {"refused", s.refused.load()},   {"unstored", s.unstored.load()},
+                   {"overrun", s.overrun.load()},   {"late", s.late.load()},
+                   {"lost", s.lost.load()},         {"cut", belief->cut_frames}};
   const Intake::State waiting = from.journal.waiting();
   out["queue"] = {{"frames", waiting.frames},
                   {"capacity", Intake::kFrames},
@@ -119,6 +119,8 @@ HttpResponse metrics_answer(const StatusSources& from) {
   out.add("frames_accepted_total", "counter", "frames applied and durable", s.accepted.load());
   out.add("frames_repeated_total", "counter", "frames sent again", s.repeated.load());
   out.add("frames_refused_total", "counter", "frames refused", s.refused.load());
+  out.add("frames_unstored_total", "counter", "frames refused, the disk is full or fails",
+          s.unstored.load());
   out.add("frames_overrun_total", "counter", "frames dropped, too many waiting", s.overrun.load());
   const Intake::State waiting = from.journal.waiting();
   out.add("queue_frames", "gauge", "frames that wait to be applied", waiting.frames);

@@ -57,6 +57,7 @@ TEST(HttpError, HasTheShapeOfAllErrors) {
   EXPECT_EQ(http_error(Error{ErrorCode::kTooLarge, "", ""}).status, 413);
   EXPECT_EQ(http_error(Error{ErrorCode::kUnavailable, "", ""}).status, 503);
   EXPECT_EQ(http_error(Error{ErrorCode::kIo, "", ""}).status, 500);
+  EXPECT_EQ(http_error(Error{ErrorCode::kStorage, "", ""}).status, 507);
 }
 
 }  // namespace

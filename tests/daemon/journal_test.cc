@@ -200,13 +200,14 @@ TEST_F(JournalTest, AFullDiskRefusesAndTheBeliefGoesBack) {
       if (receipt) ++durable;
     }
     ASSERT_FALSE(receipt.ok());
-    EXPECT_EQ(receipt.error().code, ErrorCode::kIo);
+    EXPECT_EQ(receipt.error().code, ErrorCode::kStorage);
     EXPECT_EQ(answers(*journal), kept);
     EXPECT_EQ(journal->logged_frames(), 2 * durable);
     EXPECT_EQ(committed(), 2 * durable);
     EXPECT_EQ(statistics_.commit_failures, 1u);
     EXPECT_EQ(statistics_.accepted, 2u * durable);
     EXPECT_EQ(statistics_.refused, 2u);
+    EXPECT_EQ(statistics_.unstored, 2u);
     const auto again = apply(*journal, {frame_number(0)});
     EXPECT_TRUE(again.ok() && again->repeated == 1) << "what is durable stays";
   }
