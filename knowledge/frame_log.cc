@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "knowledge/commit_mark.h"
 #include "knowledge/data_directory.h"
 #include "knowledge/log_schema.h"
 #include "knowledge/sqlite.h"
@@ -20,14 +21,21 @@ using sqlite::Transaction;
 /// Somebody who reads the database may hold it for a moment.
 constexpr int kBusyMs = 1000;
 
+/// What SQLite says of a file whose content cannot be: also that its tables are others.
+bool tells_of_damage(int extended_code) {
+  const int code = extended_code & 0xff;
+  return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR;
+}
+
+Error damage(const std::string& directory, const std::string& what) {
+  return {ErrorCode::kConflict, "",
+          directory + "/anchord.db is damaged: " + what + "; `anchorctl repair " + directory +
+              "` saves what can be saved"};
+}
+
 /// What was being done, before what SQLite says of it.
 Error while_doing(const std::string& what, const Error& error) {
   return {error.code, error.field, "cannot " + what + ": " + error.message};
-}
-
-/// The same of what had to be written.
-Error not_stored(const std::string& what, const Error& error) {
-  return {ErrorCode::kStorage, "", while_doing(what, error).message};
 }
 
 Error lost_already() {
@@ -43,16 +51,33 @@ struct FrameLog::Store {
   std::optional<Transaction> batch;
   bool failed;  ///< the open batch is lost
   std::int64_t last_sequence, committed_sequence;
+  std::string directory;
+  CommitMark mark;
+  bool damaged = false;
 
-  static Result<std::unique_ptr<Store>> prepare(DirectoryLock lock, Database database,
-                                                const std::string& path, std::int64_t max_bytes);
+  /// Takes the lock and the database when all goes well.
+  static Result<std::unique_ptr<Store>> prepare(DirectoryLock& lock, Database& database,
+                                                const std::string& directory,
+                                                std::int64_t max_bytes);
+  /// What could not be read, and that it is damage, if it is.
+  Error failed_to(const std::string& what, const Error& error);
+  /// The same of what had to be written.
+  Error not_stored(const std::string& what, const Error& error) {
+    return {ErrorCode::kStorage, "", failed_to(what, error).message};
+  }
+  Error found(const std::string& damage);
   /// SQLite may have ended the transaction by itself; going on would lose the batch's beginning.
   bool batch_lost() const { return failed || (batch && !database.in_transaction()); }
 };
 
 FrameLog::FrameLog(std::unique_ptr<Store> store) : store_(std::move(store)) {}
 
-FrameLog::~FrameLog() = default;
+FrameLog::~FrameLog() {
+  store_->batch.reset();
+  // Closing moves what the WAL holds into the database and drops it: damage would be made final.
+  sqlite3_db_config(store_->database.handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE,
+                    store_->damaged ? 1 : 0, nullptr);
+}
 
 Result<std::unique_ptr<FrameLog>> FrameLog::open(const std::string& directory,
                                                  std::int64_t max_bytes) {
@@ -63,21 +88,35 @@ Result<std::unique_ptr<FrameLog>> FrameLog::open(const std::string& directory,
   auto database = Database::open(path);
   if (!database) return database.error();
   sqlite3_busy_timeout(database->handle(), kBusyMs);
-  auto store = Store::prepare(*std::move(lock), *std::move(database), path, max_bytes);
+  sqlite3_db_config(database->handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  auto store = Store::prepare(*lock, *database, directory, max_bytes);
   if (store) return std::unique_ptr<FrameLog>(new FrameLog(*std::move(store)));
   if (store.error().code == ErrorCode::kConflict) return store.error();
+  if (tells_of_damage(database->extended_code())) return damage(directory, store.error().message);
   return while_doing("open the frame log " + path, store.error());
 }
 
-Result<std::unique_ptr<FrameLog::Store>> FrameLog::Store::prepare(DirectoryLock lock,
-                                                                  Database database,
-                                                                  const std::string& path,
+Result<std::unique_ptr<FrameLog::Store>> FrameLog::Store::prepare(DirectoryLock& lock,
+                                                                  Database& database,
+                                                                  const std::string& directory,
                                                                   std::int64_t max_bytes) {
+  const std::string path = directory + "/anchord.db";
+  CommitMark mark(path + "-mark");
+  const std::int64_t committed = mark.read();
+  const auto end = database.read_integer("SELECT coalesce(max(sequence), 0) FROM frames");
+  const bool no_table = !end && database.extended_code() == SQLITE_ERROR;
+  if ((end && *end < committed) || (no_table && committed > 0))
+    return damage(directory, "it ends at frame " + std::to_string(end ? *end : 0) + ", and " +
+                                 std::to_string(committed) + " frames were acknowledged");
   if (auto ready = prepare_log(database, path, max_bytes); !ready) return ready.error();
+  // Never set by this program; where a flipped bit sets it, SQLite would write over pages.
+  const auto auto_vacuum = database.read_integer("PRAGMA auto_vacuum");
+  if (!auto_vacuum) return auto_vacuum.error();
+  if (*auto_vacuum != 0) return damage(directory, "its header is another than it was made with");
   auto insert =
       Statement::prepare(database,
-                         "INSERT INTO frames (sequence, utime, robot, sensor, bytes, kind, work) "
-                         "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
+                         "INSERT INTO frames (sequence, utime, robot, sensor, bytes, kind, work, "
+                         "checksum) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)");
   if (!insert) return insert.error();
   auto find = Statement::prepare(database,
                                  "SELECT bytes = ?4 FROM frames "
@@ -99,7 +138,8 @@ Result<std::unique_ptr<FrameLog::Store>> FrameLog::Store::prepare(DirectoryLock 
   if (!latest) return latest.error();
   auto read =
       Statement::prepare(database,
-                         "SELECT sequence, utime, robot, sensor, bytes, kind, work FROM frames "
+                         "SELECT sequence, utime, robot, sensor, bytes, kind, work, checksum "
+                         "FROM frames "
                          "WHERE sequence >= ?1 ORDER BY sequence");
   if (!read) return read.error();
   auto last = database.read_integer("SELECT coalesce(max(sequence), 0) FROM frames");
@@ -118,7 +158,19 @@ Result<std::unique_ptr<FrameLog::Store>> FrameLog::Store::prepare(DirectoryLock 
                                           {},
                                           false,
                                           *last,
-                                          *last});
+                                          *last,
+                                          directory,
+                                          std::move(mark)});
+}
+
+Error FrameLog::Store::found(const std::string& what) {
+  damaged = true;
+  return damage(directory, what);
+}
+
+Error FrameLog::Store::failed_to(const std::string& what, const Error& error) {
+  return tells_of_damage(database.extended_code()) ? found(error.message)
+                                                   : while_doing(what, error);
 }
 
 Status FrameLog::begin_batch() {
@@ -127,7 +179,7 @@ Status FrameLog::begin_batch() {
   auto transaction = Transaction::begin(store_->database);
   if (!transaction) {
     store_->failed = true;
-    return not_stored("write to the frame log", transaction.error());
+    return store_->not_stored("write to the frame log", transaction.error());
   }
   store_->batch.emplace(*std::move(transaction));
   return Done{};
@@ -135,9 +187,9 @@ Status FrameLog::begin_batch() {
 
 Status FrameLog::append(const LoggedFrame& frame) {
   if (store_->batch_lost()) return lost_already();
-  if (frame.sequence <= store_->last_sequence)
+  if (frame.sequence != store_->last_sequence + 1)
     return Error{ErrorCode::kConflict, "sequence",
-                 "is " + std::to_string(frame.sequence) + ", and must be above the log's last, " +
+                 "is " + std::to_string(frame.sequence) + ", and must follow the log's last, " +
                      std::to_string(store_->last_sequence)};
   if (Status begun = begin_batch(); !begun) return begun;
   Statement& insert = store_->insert;
@@ -149,6 +201,7 @@ Status FrameLog::append(const LoggedFrame& frame) {
       .bind(5, std::span<const std::uint8_t>(frame.bytes))
       .bind(6, static_cast<std::int64_t>(frame.kind));
   if (frame.work) insert.bind(7, *frame.work);
+  insert.bind(8, static_cast<std::int64_t>(checksum(frame)));
   auto step = insert.step();
   if (step) {
     store_->last_sequence = frame.sequence;
@@ -158,7 +211,7 @@ Status FrameLog::append(const LoggedFrame& frame) {
     return Error{ErrorCode::kConflict, "utime",
                  "the log has a frame of this sensor at " + std::to_string(frame.utime)};
   store_->failed = true;
-  return not_stored("append to the frame log", step.error());
+  return store_->not_stored("append to the frame log", step.error());
 }
 
 Status FrameLog::commit() {
@@ -166,10 +219,11 @@ Status FrameLog::commit() {
   if (!store_->batch) return Done{};
   if (auto committed = store_->batch->commit(); !committed) {
     store_->failed = true;
-    return not_stored("commit to the frame log", committed.error());
+    return store_->not_stored("commit to the frame log", committed.error());
   }
   store_->batch.reset();
   store_->committed_sequence = store_->last_sequence;
+  store_->mark.write(store_->last_sequence);
   return Done{};
 }
 
@@ -190,7 +244,7 @@ Result<FrameLog::Presence> FrameLog::contains(std::string_view robot, std::strin
                  .bind(3, utime)
                  .bind(4, std::span<const std::uint8_t>(bytes))
                  .step();
-  if (!row) return while_doing("read the frame log", row.error());
+  if (!row) return store_->failed_to("read the frame log", row.error());
   if (!*row) return Presence::kNo;
   return find.integer(0) == 1 ? Presence::kSame : Presence::kDifferent;
 }
@@ -199,7 +253,7 @@ Result<bool> FrameLog::contains_event(Utime utime, const std::vector<std::uint8_
   Statement& find = store_->find_event;
   ResetAtEnd reset(find);
   auto row = find.bind(1, utime).bind(2, std::span<const std::uint8_t>(bytes)).step();
-  if (!row) return while_doing("read the frame log", row.error());
+  if (!row) return store_->failed_to("read the frame log", row.error());
   return row;
 }
 
@@ -213,7 +267,7 @@ Status FrameLog::put_task(std::int64_t id, bool ended, const std::vector<std::ui
                   .step();
   if (step) return Done{};
   store_->failed = true;
-  return not_stored("keep the task", step.error());
+  return store_->not_stored("keep the task", step.error());
 }
 
 Status FrameLog::keep_tasks(std::int64_t count) {
@@ -223,7 +277,7 @@ Status FrameLog::keep_tasks(std::int64_t count) {
   auto step = drop.bind(1, count).step();
   if (step) return Done{};
   store_->failed = true;
-  return not_stored("drop old tasks", step.error());
+  return store_->not_stored("drop old tasks", step.error());
 }
 
 Status FrameLog::for_each_task(
@@ -232,7 +286,7 @@ Status FrameLog::for_each_task(
   ResetAtEnd reset(read);
   for (;;) {
     auto row = read.step();
-    if (!row) return while_doing("read the tasks", row.error());
+    if (!row) return store_->failed_to("read the tasks", row.error());
     if (!*row || !callback(read.integer(0), read.bytes(1))) return Done{};
   }
 }
@@ -241,7 +295,7 @@ Result<std::optional<Utime>> FrameLog::latest(std::string_view robot, std::strin
   Statement& latest = store_->latest;
   ResetAtEnd reset(latest);
   auto row = latest.bind(1, robot).bind(2, sensor).step();
-  if (!row) return while_doing("read the frame log", row.error());
+  if (!row) return store_->failed_to("read the frame log", row.error());
   std::optional<Utime> utime;
   if (!latest.is_null(0)) utime = latest.integer(0);
   return utime;
@@ -253,11 +307,13 @@ Status FrameLog::for_each(std::int64_t from_sequence,
   ResetAtEnd reset(read);
   read.bind(1, from_sequence);
   LoggedFrame frame;
-  for (;;) {
+  for (std::int64_t next = from_sequence;; ++next) {
     auto row = read.step();
-    if (!row) return while_doing("read the frame log", row.error());
-    if (!*row) return Done{};
-    frame.sequence = read.integer(0);
+    if (!row) return store_->failed_to("read the frame log", row.error());
+    if (!*row && next > store_->last_sequence) return Done{};
+    if (!*row || read.integer(0) != next)
+      return store_->found("frame " + std::to_string(next) + " is missing");
+    frame.sequence = next;
     frame.utime = read.integer(1);
     frame.robot = read.text(2);
     frame.sensor = read.text(3);
@@ -266,6 +322,8 @@ Status FrameLog::for_each(std::int64_t from_sequence,
     frame.kind = static_cast<LoggedFrame::Kind>(read.integer(5));
     frame.work.reset();
     if (!read.is_null(6)) frame.work = read.integer(6);
+    if (!read.is_null(7) && read.integer(7) != checksum(frame))
+      return store_->found("frame " + std::to_string(next) + " is not as it was written");
     if (!callback(frame)) return Done{};
   }
 }

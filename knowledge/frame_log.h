@@ -11,20 +11,9 @@
 
 #include "core/result.h"
 #include "core/time.h"
+#include "knowledge/logged_frame.h"
 
 namespace anchord {
-
-/// One accepted frame, or event, as it stands in the log.
-struct LoggedFrame {
-  enum class Kind { kFrame = 0, kEvent = 1 };
-  Kind kind = Kind::kFrame;
-  std::int64_t sequence = 0;  ///< order of acceptance, from 1, strictly increasing
-  Utime utime = 0;
-  std::string robot, sensor;
-  std::vector<std::uint8_t> bytes;        ///< its canonical encoding; the log does not read it
-  std::optional<std::int64_t> work = {};  ///< bound on the work that folding it took, if there was
-  bool operator==(const LoggedFrame&) const = default;
-};
 
 /// The log of accepted frames: the truth from which the belief is folded. It is a SQLite database,
 /// `anchord.db`, in a directory of its own, which one process holds at a time (`anchord.lock`).
@@ -33,6 +22,10 @@ struct LoggedFrame {
 /// The log keeps the order of acceptance. The belief is a function of the frames in the order
 /// (utime, sequence), and a frame may be accepted late; whoever folds the log in order of sequence
 /// puts late frames in their place just as when they came in, and reaches the same belief.
+///
+/// A checksum stands beside each; with the numbering, and a note of what was committed last
+/// (`anchord.db-mark`), damage is found when the log is opened or what is damaged is read. Closing
+/// a log in which damage was found leaves its files as they are.
 ///
 /// Events stand in the same order among the frames. Beside them it keeps the newest record of each
 /// verification task.
@@ -46,13 +39,14 @@ struct LoggedFrame {
 class FrameLog {
  public:
   /// The format that this program writes; kept in the database's `user_version`.
-  static constexpr int kVersion = 3;
+  static constexpr int kVersion = 4;
 
   /// Opens the log in `directory` and creates both if missing. `max_bytes` bounds the database's
   /// size, 0: by the disk alone; at the bound appends fail as on a full disk.
   /// Errors: kIo: the directory cannot be made or written, the disk failed; kUnavailable: another
-  /// process holds the log; kConflict: `anchord.db` is of a newer version, of another program, or
-  /// no database at all; nothing in it is changed then.
+  /// process holds the log; kConflict: `anchord.db` is of a newer version, of another program, no
+  /// database at all, or damaged, as far as that is seen without reading every frame; nothing in it
+  /// is changed then.
   static Result<std::unique_ptr<FrameLog>> open(const std::string& directory,
                                                 std::int64_t max_bytes = 0);
   /// Rolls back an open batch.
@@ -60,7 +54,7 @@ class FrameLog {
   FrameLog(const FrameLog&) = delete;
   FrameLog& operator=(const FrameLog&) = delete;
 
-  /// Adds a frame to the open batch, or begins one. kConflict: the sequence is not above
+  /// Adds a frame to the open batch, or begins one. kConflict: the sequence does not follow
   /// last_sequence(), or the sensor has a frame of that utime; the batch stands then.
   Status append(const LoggedFrame& frame);
   /// Makes the batch durable. Without a batch there is nothing to do.
@@ -91,8 +85,8 @@ class FrameLog {
   Status for_each_task(
       const std::function<bool(std::int64_t id, std::span<const std::uint8_t>)>& callback);
 
-  /// Every frame and event with `sequence >= from_sequence`, in order of sequence, until the
-  /// callback says false. The callback must not append.
+  /// Every frame and event with `sequence >= from_sequence`, from 1, in order of sequence, until
+  /// the callback says false. The callback must not append. kConflict: what follows is damaged.
   Status for_each(std::int64_t from_sequence,
                   const std::function<bool(const LoggedFrame&)>& callback);
 

@@ -22,7 +22,8 @@ CREATE TABLE frames (
   sensor TEXT NOT NULL,
   bytes BLOB NOT NULL,
   kind INTEGER NOT NULL DEFAULT 0,
-  work INTEGER
+  work INTEGER,
+  checksum INTEGER
 ) STRICT;
 CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime) WHERE kind = 0;
 CREATE INDEX events_by_time ON frames (utime) WHERE kind = 1;
@@ -41,6 +42,9 @@ CREATE TABLE tasks (id INTEGER PRIMARY KEY, ended INTEGER NOT NULL, bytes BLOB N
 /// From version 2, which had no bounds on work.
 constexpr const char* kFromVersion2 = "ALTER TABLE frames ADD COLUMN work INTEGER;";
 
+/// From version 3, which had no checksums; its frames go without.
+constexpr const char* kFromVersion3 = "ALTER TABLE frames ADD COLUMN checksum INTEGER;";
+
 Error io(std::string message) { return {ErrorCode::kIo, "", std::move(message)}; }
 
 /// Refuses what is not this program's before anything in it is changed; true: it is new and empty.
@@ -51,7 +55,10 @@ Result<bool> recognise(Database& database, const std::string& path) {
   };
   auto application = database.read_integer("PRAGMA application_id");
   if (!application) {
-    if (database.extended_code() == SQLITE_NOTADB) return refuse("is no SQLite database");
+    if (database.extended_code() == SQLITE_NOTADB)
+      return refuse(
+          "is no SQLite database, or damaged: `anchorctl repair` saves what it has of this "
+          "program");
     return application.error();
   }
   auto version = database.read_integer("PRAGMA user_version");
@@ -84,7 +91,8 @@ Status upgrade(Database& database) {
   if (*version >= kLogVersion) return Done{};
   auto transaction = Transaction::begin(database);
   if (!transaction) return transaction.error();
-  const std::string sql = (*version < 2 ? kFromVersion1 : std::string()) + kFromVersion2 +
+  const std::string sql = (*version < 2 ? kFromVersion1 : std::string()) +
+                          (*version < 3 ? kFromVersion2 : "") + kFromVersion3 +
                           ("PRAGMA user_version=" + std::to_string(kLogVersion));
   if (auto made = database.execute(sql); !made) return made;
   return transaction->commit();

@@ -40,11 +40,11 @@ TEST_F(FrameLogTest, KeepsWhatWasCommittedAcrossReopening) {
 
 TEST_F(FrameLogTest, ReadsFromASequenceOnAndStopsWhenTold) {
   auto log = open();
-  for (int n = 1; n <= 9; n += 2) ASSERT_TRUE(log->append(frame_number(n)).ok());
+  for (int n = 1; n <= 5; ++n) ASSERT_TRUE(log->append(frame_number(n)).ok());
   ASSERT_TRUE(log->commit().ok());
-  const auto tail = all(*log, 4);
+  const auto tail = all(*log, 3);
   ASSERT_EQ(tail.size(), 3u);
-  EXPECT_EQ(tail.front().sequence, 5);
+  EXPECT_EQ(tail.front().sequence, 3);
   int seen = 0;
   ASSERT_TRUE(log->for_each(1, [&](const LoggedFrame&) { return ++seen < 2; }).ok());
   EXPECT_EQ(seen, 2);
@@ -69,9 +69,9 @@ TEST_F(FrameLogTest, RollbackDropsTheBatchAndNothingElse) {
 
 TEST_F(FrameLogTest, TellsRepeatedFramesFromChangedOnes) {
   auto log = open();
-  const auto frame = frame_number(4);
+  const auto frame = frame_number(1);
   auto presence = [&](const std::string& robot, Utime utime, std::vector<std::uint8_t> bytes) {
-    auto found = log->contains(robot, "kinect", utime, bytes);
+    auto found = log->contains(robot, "laser", utime, bytes);
     EXPECT_TRUE(found.ok());
     return found.ok() ? *found : FrameLog::Presence::kNo;
   };
@@ -120,22 +120,22 @@ TEST_F(FrameLogTest, KnowsEachSensorsLatestTime) {
 
 TEST_F(FrameLogTest, RefusesASequenceOrATimeTwiceAndKeepsTheBatch) {
   auto log = open();
-  ASSERT_TRUE(log->append(frame_number(2)).ok());
-  for (const std::int64_t sequence : {2, 1, 0}) {
-    auto again = frame_number(3);
+  ASSERT_TRUE(log->append(frame_number(1)).ok());
+  for (const std::int64_t sequence : {3, 1, 0}) {
+    auto again = frame_number(2);
     again.sequence = sequence;
     auto refused = log->append(again);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().code, ErrorCode::kConflict);
     EXPECT_EQ(refused.error().field, "sequence");
   }
-  auto same_time = frame_number(2);
-  same_time.sequence = 3;
+  auto same_time = frame_number(1);
+  same_time.sequence = 2;
   auto refused = log->append(same_time);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::kConflict);
   EXPECT_EQ(refused.error().field, "utime");
-  ASSERT_TRUE(log->append(frame_number(3)).ok());
+  ASSERT_TRUE(log->append(frame_number(2)).ok());
   ASSERT_TRUE(log->commit().ok());
   EXPECT_EQ(all(*log).size(), 2u);
 }

@@ -83,13 +83,27 @@ TEST_F(FrameLogTest, KeepsTheBoundOnAFramesWork) {
   EXPECT_EQ(frames[1].work, 12'345);
 }
 
+TEST_F(FrameLogTest, BringsVersion3UpToDate) {
+  {
+    auto log = open();
+    ASSERT_TRUE(log->append(frame_number(1)).ok());
+    ASSERT_TRUE(log->commit().ok());
+  }
+  tamper("ALTER TABLE frames DROP COLUMN checksum; PRAGMA user_version=3");
+  auto log = open();
+  ASSERT_TRUE(log->append(frame_number(2)).ok());
+  EXPECT_EQ(all(*log), (std::vector<LoggedFrame>{frame_number(1), frame_number(2)}));
+}
+
 TEST_F(FrameLogTest, BringsVersion2UpToDate) {
   {
     auto log = open();
     ASSERT_TRUE(log->append(frame_number(1)).ok());
     ASSERT_TRUE(log->commit().ok());
   }
-  tamper("ALTER TABLE frames DROP COLUMN work; PRAGMA user_version=2");
+  tamper(
+      "ALTER TABLE frames DROP COLUMN checksum; ALTER TABLE frames DROP COLUMN work;"
+      "PRAGMA user_version=2");
   auto log = open();
   EXPECT_EQ(all(*log), std::vector<LoggedFrame>{frame_number(1)});
   LoggedFrame bounded = frame_number(2);
@@ -108,6 +122,7 @@ TEST_F(FrameLogTest, BringsVersion1UpToDate) {
   tamper(
       "DROP TABLE tasks; DROP INDEX events_by_time; DROP INDEX frames_by_sensor;"
       "ALTER TABLE frames DROP COLUMN kind; ALTER TABLE frames DROP COLUMN work;"
+      "ALTER TABLE frames DROP COLUMN checksum;"
       "CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime);"
       "PRAGMA user_version=1");
   for (int time = 0; time < 2; ++time) {

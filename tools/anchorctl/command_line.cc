@@ -26,6 +26,7 @@ struct Given {
   std::optional<double> for_s;
   VerifyOptions verify;
   EventOptions event;
+  RepairCall repair;
 };
 
 void add_common(CLI::App& app, Given& given) {
@@ -124,6 +125,7 @@ std::variant<Call, int> parse_command_line(int argc, const char* const* argv) {
               given.verify);
   add_event_commands(app, given.event, [&](CLI::App& command) { add_common(command, given); });
   add_command(app, "status", "how the daemon is", "", given);
+  add_repair_command(app, given.repair);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -132,6 +134,12 @@ std::variant<Call, int> parse_command_line(int argc, const char* const* argv) {
     return wrong(error.what());
   }
   const CLI::App& command = *app.get_subcommands().front();
+  if (command.get_name() == "repair") {
+    Call call;
+    call.command = "repair";
+    call.repair = given.repair;
+    return call;
+  }
   return to_call(command.get_name(), given, command.remaining());
 }
 

@@ -6,6 +6,7 @@
 
 #include "tools/anchorctl/fields.h"
 #include "tools/anchorctl/http_client.h"
+#include "tools/anchorctl/repair.h"
 
 namespace anchord {
 
@@ -14,7 +15,7 @@ inline constexpr int kFailed = 1, kWrongCall = 2;
 
 /// One call of the program.
 struct Call {
-  /// where, objects, count, hypotheses, watch, status, verify; event for all that tell one.
+  /// where, objects, count, hypotheses, watch, status, verify, repair; event for all that tell one.
   std::string command;
   ServerAddress server;
   HttpCall asked;     ///< of the daemon
@@ -24,6 +25,7 @@ struct Call {
   bool all = false;   ///< verify: those that have ended, too
   double interval_s = 0.5;
   std::optional<double> for_s;
+  RepairCall repair;
 };
 
 /// Reads the arguments, and ANCHORD_SERVER for a missing --server. If there is nothing to do, the

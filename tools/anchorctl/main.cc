@@ -96,6 +96,11 @@ int run_verify(const Call& call) {
   return went_well(end->json) ? shown : kFailed;
 }
 
+int run_repair(const Call& call) {
+  const auto text = repair(call.repair);
+  return text ? show(*text) : fail(text.error());
+}
+
 int run_watch(const Call& call) {
   using Output = WatchSettings::Output;
   const bool screen = !call.json && on_terminal();
@@ -135,6 +140,7 @@ int main(int argc, char** argv) {
     if (asked.command == "watch") return anchord::run_watch(asked);
     if (asked.command == "verify") return anchord::run_verify(asked);
     if (asked.command == "event") return anchord::run_event(asked);
+    if (asked.command == "repair") return anchord::run_repair(asked);
     return anchord::run_once(asked);
   } catch (const std::exception& error) {
     return anchord::fail({anchord::ErrorCode::kIo, "", error.what()});
