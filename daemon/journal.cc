@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -53,6 +54,7 @@ Status Journal::restore(const std::atomic<bool>& cancelled) {
   restored_late_ = world_.late_frames();
   durable_ = world_;
   published_ = world_.belief();
+  warn_of_the_future();
   return Done{};
 }
 
@@ -188,6 +190,7 @@ Status Journal::fold(const Frame& frame, std::vector<Folded>& folded) {
     if (!again) return again.error();
     if (*again) return Done{};
   }
+  if (Status leap = check_leap(frame.utime); !leap) return leap;
   // What is folded is what a restart will read, to the bit; and what it could not is refused.
   const auto message = decode_frame(logged.bytes);
   if (!message) return message.error();
@@ -195,12 +198,50 @@ Status Journal::fold(const Frame& frame, std::vector<Folded>& folded) {
   const auto work = pace_.work();
   if (work) logged.work = static_cast<std::int64_t>(*work);
   const auto begin = Clock::now();
-  if (Status applied = world_.apply(message->frame, work); !applied) return applied;
+  if (Status applied = world_.apply(message->frame, work); !applied) {
+    warn_of_the_future();
+    return applied;
+  }
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   times_.add(seconds);
   if (world_.late_frames() == late) pace_.took(world_.belief()->effort.work, seconds);
   folded.push_back({std::move(logged), world_.belief()});
   return Done{};
+}
+
+Utime Journal::clock_time() {
+  using std::chrono::microseconds;
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<microseconds>(since_1970).count();
+}
+
+/// One frame with a time far ahead would make all after it too late. The first frame of a log may
+/// be of any time, and recordings of the past are: only what neither the frames nor the clock have
+/// come near is refused.
+Status Journal::check_leap(Utime utime) {
+  const Utime newest = world_.belief()->utime;
+  const double leap = seconds_between(std::max(newest, hooks_.now()), utime);
+  const bool no_time = utime > kLatestUtime;  // the world says what is wrong with it
+  if (newest == 0 || no_time || leap <= background_->knowledge.max_leap) return Done{};
+  ++statistics_.ahead;
+  return Error{ErrorCode::kConflict, "utime",
+               "is " + std::to_string(std::llround(leap)) +
+                   " s ahead of the newest frame and of the daemon's clock, more than "
+                   "world.max_leap"};
+}
+
+/// The clock was ahead and has come back, or a recording from the future was played: what comes
+/// now is too late.
+void Journal::warn_of_the_future() {
+  const double ahead = seconds_between(hooks_.now(), world_.belief()->utime);
+  const bool far = ahead > background_->knowledge.max_leap;
+  if (far && !warned_)
+    spdlog::warn(
+        "the newest frame is {:.0f} s ahead of this machine's clock: frames of the present are "
+        "refused as too late. If a clock was wrong, stop the daemon and take that time back with "
+        "`anchorctl repair DIR --until now`",
+        ahead);
+  warned_ = far;
 }
 
 /// The same for an event.

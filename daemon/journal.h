@@ -62,7 +62,10 @@ class Journal {
     /// At least every half second while the journal lives, and for each frame that is restored;
     /// on the thread of restore() and on the journal's.
     std::function<void()> alive;
+    /// What time the machine's clock says, by which frames from the future are told; it may jump.
+    std::function<Utime()> now = clock_time;
   };
+  static Utime clock_time();
   /// Frames are committed at most this long after they were applied; those that somebody waits for
   /// as soon as nothing else is to be applied.
   static constexpr std::chrono::milliseconds kBatch{30};
@@ -112,6 +115,8 @@ class Journal {
   bool commit_is_due() const;
   void take(Submission submission);
   Status fold(const Frame& frame, std::vector<Folded>& folded);
+  Status check_leap(Utime utime);
+  void warn_of_the_future();
   Status fold(const Event& event, std::vector<Folded>& folded, Receipt& receipt);
   Result<bool> repeated(const LoggedFrame& frame, const std::vector<Folded>& folded);
   Status append(const std::vector<Folded>& folded, const std::vector<Task>& tasks);
@@ -136,6 +141,7 @@ class Journal {
   bool batch_open_ = false;
   bool awaited_ = false;  ///< somebody waits for the open batch
   bool failing_ = false;  ///< the last batch could not be made durable
+  bool warned_ = false;   ///< that the newest frame is ahead of the clock
 
   std::atomic<std::shared_ptr<const Belief>> published_;
 

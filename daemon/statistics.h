@@ -19,6 +19,7 @@ struct Statistics {
   std::atomic<std::uint64_t> unstored{0};  ///< of these, those that the disk did not take
   std::atomic<std::uint64_t> refused_lcm{
       0};                                 ///< messages over LCM: frames (of those) and questions
+  std::atomic<std::uint64_t> ahead{0};    ///< of these, those too far ahead of the clock
   std::atomic<std::uint64_t> overrun{0};  ///< frames dropped because too many waited
   std::atomic<std::uint64_t> late{0};     ///< frames put in place behind newer ones
   std::atomic<std::uint64_t> lost{0};     ///< gaps in the numbering of LCM publishers

@@ -73,8 +73,9 @@ HttpResponse status_answer(const StatusSources& from) {
            {"dropped_probability", belief->effort.dropped}};
   out["frames"] = {{"accepted", s.accepted.load()}, {"repeated", s.repeated.load()},
                    {"refused", s.refused.load()},   {"unstored", s.unstored.load()},
-                   {"overrun", s.overrun.load()},   {"late", s.late.load()},
-                   {"lost", s.lost.load()},         {"cut", belief->cut_frames}};
+                   {"ahead", s.ahead.load()},       {"overrun", s.overrun.load()},
+                   {"late", s.late.load()},         {"lost", s.lost.load()},
+                   {"cut", belief->cut_frames}};
   const Intake::State waiting = from.journal.waiting();
   out["queue"] = {{"frames", waiting.frames},
                   {"capacity", Intake::kFrames},
@@ -121,6 +122,8 @@ HttpResponse metrics_answer(const StatusSources& from) {
   out.add("frames_refused_total", "counter", "frames refused", s.refused.load());
   out.add("frames_unstored_total", "counter", "frames refused, the disk is full or fails",
           s.unstored.load());
+  out.add("frames_ahead_total", "counter", "frames refused, too far ahead of the clock",
+          s.ahead.load());
   out.add("frames_overrun_total", "counter", "frames dropped, too many waiting", s.overrun.load());
   const Intake::State waiting = from.journal.waiting();
   out.add("queue_frames", "gauge", "frames that wait to be applied", waiting.frames);

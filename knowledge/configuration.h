@@ -49,9 +49,10 @@ class [[nodiscard]] Configuration {
 /// Where a file cannot be had or is no JSON, that is all that is said: nothing else could be sure.
 ///
 /// Unknown keys are mistakes. What may be left out, and what then holds:
-/// - `world`: `frame` "map", `dimensions` 3, `max_lateness` 0.5 s, `cell` 0.25 m, doubled
-///   until the world has at most kMaxCells cells. `bounds` may not be left out. No `walls`; one is
-///   [[x, y], [x, y]], or {"line": that, "z": [least, most]} (default: of any height).
+/// - `world`: `frame` "map", `dimensions` 3, `max_lateness` 0.5 s, `max_leap` 600 s, `cell`
+///   0.25 m, doubled until the world has at most kMaxCells cells. `bounds` may not be left out.
+///   No `walls`; one is [[x, y], [x, y]], or {"line": that, "z": [least, most]} (default: of any
+///   height).
 /// - `places[]`: `kind` "", `parent` none, `z` the world's own.
 /// - a scalar attribute: `unit` "", no `predicates` (a bound may be null: none on that side; they
 ///   are ordered by their bounds), `reference_density` 1 over the span of the finite predicate

@@ -101,10 +101,13 @@ void read_world(const JsonValue& root, Knowledge& knowledge) {
     root.mistake_at("world", "is missing; it must have at least \"bounds\"");
     return;
   }
-  if (!world->object_of({"frame", "dimensions", "bounds", "cell", "max_lateness", "walls"})) return;
+  if (!world->object_of(
+          {"frame", "dimensions", "bounds", "cell", "max_lateness", "max_leap", "walls"}))
+    return;
   world->read("frame", knowledge.map_frame);
   world->read("dimensions", knowledge.dims, 2, 3);
   world->read("max_lateness", knowledge.max_lateness, {0, 3600});
+  world->read("max_leap", knowledge.max_leap, {1, 1e10});
   if (const auto bounds = world->find("bounds")) {
     read_bounds(*bounds, knowledge);
   } else {

@@ -202,6 +202,7 @@ struct Knowledge {
   Eigen::Vector3d bounds_max = Eigen::Vector3d::Zero();
   double cell = 0.25;         ///< m
   double max_lateness = 0.5;  ///< s
+  double max_leap = 600;      ///< s that a frame may be ahead of the newest one and of the clock
   std::vector<Wall> walls;    ///< neither sight nor way passes
   std::vector<Place> places;
   std::vector<Attribute> attributes;

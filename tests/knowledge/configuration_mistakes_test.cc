@@ -313,6 +313,8 @@ INSTANTIATE_TEST_SUITE_P(
              "world.cell", "raise it"},
         Case{R"({"world": {"max_lateness": -1, "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}})",
              "world.max_lateness", "[0, 3600]"},
+        Case{R"({"world": {"max_leap": 0, "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}})",
+             "world.max_leap", "[1, 1"},
         Case{R"({"world": {"frame": 3, "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}})",
              "world.frame", "not 3"}));
 

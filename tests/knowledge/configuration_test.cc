@@ -48,6 +48,7 @@ TEST(Configuration, WithoutAnythingButBoundsHasTheDocumentedDefaults) {
   EXPECT_EQ(knowledge.bounds_max, Eigen::Vector3d(10, 8, 3));
   EXPECT_EQ(knowledge.cell, 0.25);
   EXPECT_EQ(knowledge.max_lateness, 0.5);
+  EXPECT_EQ(knowledge.max_leap, 600);
   EXPECT_EQ(knowledge.class_attribute, -1);
   ASSERT_EQ(knowledge.classes.size(), 1u);
   const ObjectClass& object = knowledge.classes[0];

@@ -210,6 +210,33 @@ TEST_F(LogRepairTest, BytesOfTheWal) {
   EXPECT_TRUE(damage("-wal", size - 1, 0x40));
 }
 
+TEST_F(LogRepairTest, ManyBytesAtOnce) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {  // any seeds
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937 random(seed);
+    const std::string directory = copy(), path = directory + "/anchord.db";
+    for (const char* part : {"", "-wal", "-mark"}) {
+      const auto size = static_cast<std::int64_t>(fs::file_size(path + part));
+      // From one byte in a file to one on each page.
+      for (std::int64_t n = 0; n <= size / 4096 * seed / 20; ++n)
+        flip(path + part, static_cast<std::int64_t>(random()) % size,
+             static_cast<char>(1 + random() % 255));
+    }
+    const auto report = repair(directory);
+    if (!report) continue;
+    const auto saved = read(directory);
+    ASSERT_TRUE(saved.ok()) << saved.error().message;
+    EXPECT_EQ(std::ssize(*saved), report->saved);
+    std::int64_t n = 0;
+    for (LoggedFrame frame : *saved) {  // each is one that was given, in their order
+      do {
+        frame.sequence = ++n;
+      } while (n <= kFrames && frame != varied(n));
+      ASSERT_LE(n, kFrames);
+    }
+  }
+}
+
 TEST_F(LogRepairTest, AFileThatEndsEarly) {
   const std::string directory = copy(), path = directory + "/anchord.db";
   fs::resize_file(path, fs::file_size(path) / 2);
