@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -40,9 +41,11 @@ Result<DirectoryLock> DirectoryLock::take(const std::string& directory) {
                  "the data directory " + directory + " is in use by another process" +
                      lock.holder() + "; stop that one, or name another directory with --data"};
   }
+  // For whoever comes next and is refused. A full disk, on which it cannot be written, is no reason
+  // not to start: questions can be answered.
   const std::string pid = std::to_string(::getpid());
-  if (::ftruncate(lock.descriptor_, 0) != 0 ||
-      ::pwrite(lock.descriptor_, pid.data(), pid.size(), 0) != static_cast<ssize_t>(pid.size()))
+  const ssize_t size = ::pwrite(lock.descriptor_, pid.data(), pid.size(), 0);
+  if (::ftruncate(lock.descriptor_, std::max<ssize_t>(size, 0)) != 0)
     return io("cannot write " + path + ": " + std::strerror(errno));
   return lock;
 }

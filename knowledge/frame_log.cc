@@ -165,7 +165,7 @@ Result<std::unique_ptr<FrameLog::Store>> FrameLog::Store::prepare(DirectoryLock&
 
 Error FrameLog::Store::found(const std::string& what) {
   damaged = true;
-  return damage(directory, what);
+  return {ErrorCode::kIo, "", damage(directory, what).message};
 }
 
 Error FrameLog::Store::failed_to(const std::string& what, const Error& error) {

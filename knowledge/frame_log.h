@@ -86,7 +86,7 @@ class FrameLog {
       const std::function<bool(std::int64_t id, std::span<const std::uint8_t>)>& callback);
 
   /// Every frame and event with `sequence >= from_sequence`, from 1, in order of sequence, until
-  /// the callback says false. The callback must not append. kConflict: what follows is damaged.
+  /// the callback says false. The callback must not append. kIo: what follows is damaged.
   Status for_each(std::int64_t from_sequence,
                   const std::function<bool(const LoggedFrame&)>& callback);
 

@@ -8,6 +8,8 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 constexpr std::int64_t kSize = DatabasePages::kSize;
+/// Messages have at most 8 MiB; what claims much more is damaged.
+constexpr std::int64_t kLongest = 64 << 20;
 
 std::int64_t big_endian(Bytes bytes) {
   // The first byte bears the sign.
@@ -106,8 +108,7 @@ void for_each_row(
     Bytes bytes = Bytes(page).subspan(static_cast<std::size_t>(at));
     const auto size = take_varint(bytes);
     const auto number = take_varint(bytes);
-    // More than all pages hold is no size.
-    if (!size || !number || *size < 0 || *size / kSize > pages.images()) continue;
+    if (!size || !number || *size < 0 || *size > kLongest) continue;
     const std::int64_t local = local_size(*size);
     if (local + (local < *size ? 4 : 0) > std::ssize(bytes)) continue;
     std::vector<std::uint8_t> record(bytes.begin(), bytes.begin() + local);

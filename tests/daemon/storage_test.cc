@@ -43,12 +43,17 @@ void expect_recovery(const TestFolder& folder, const DaemonProcess::Options& opt
     EXPECT_EQ(counter(daemon.port(), "/frames/refused"), 3);
     EXPECT_EQ(send(daemon, number - 1).body, "{\"accepted\":0,\"repeated\":1}\n");
 
-    make_room(daemon);
-    for (int more = 0; more < 5; ++more) EXPECT_EQ(send(daemon, number + more).status, 200);
-    after = belief(daemon.port());
-    EXPECT_NE(after, durable);
-    EXPECT_EQ(counter(daemon.port(), "/log/frames"), number + 4);
     EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+    DaemonProcess again(folder, options);
+    ASSERT_TRUE(again.ready()) << "it starts on a full disk, too";
+    EXPECT_EQ(belief(again.port()), durable);
+    EXPECT_EQ(send(again, number).status, 507);
+    make_room(again);
+    for (int more = 0; more < 5; ++more) EXPECT_EQ(send(again, number + more).status, 200);
+    after = belief(again.port());
+    EXPECT_NE(after, durable);
+    EXPECT_EQ(counter(again.port(), "/log/frames"), number + 4);
+    EXPECT_EQ(again.end(SIGKILL), -SIGKILL);
   }
   DaemonProcess restarted(folder);
   ASSERT_TRUE(restarted.ready());

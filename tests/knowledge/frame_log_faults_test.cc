@@ -140,6 +140,7 @@ class FrameLogFaultsTest : public FrameLogTest {
   }
   void fail_everywhere(const Load& load, std::int64_t stride) {
     const std::int64_t count = operations(fresh(), load);
+    RecordProperty("operations", std::to_string(count));
     for (std::int64_t at = 1; at <= count && !HasFailure(); at += stride)
       for (const Fault fault : {Fault::kIo, Fault::kNoSpace})
         for (const bool lasts : {false, true}) {
@@ -151,6 +152,7 @@ class FrameLogFaultsTest : public FrameLogTest {
   }
   void lose_power_everywhere(const Load& load, std::int64_t stride, std::uint32_t seeds) {
     const std::int64_t count = operations(fresh(), load);
+    RecordProperty("operations", std::to_string(count));
     for (std::int64_t at = 1; at <= count && !HasFailure(); at += stride)
       for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
         SCOPED_TRACE(testing::Message()
@@ -163,6 +165,11 @@ class FrameLogFaultsTest : public FrameLogTest {
         disk.lose_power(seed);
         writer.expect_kept();
       }
+  }
+
+  void TearDown() override {
+    RecordProperty("runs", runs_);
+    FrameLogTest::TearDown();
   }
 
  private:
