@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "daemon/logged.h"
 #include "lcmtypes/checked_decode.h"
 #include "lcmtypes/codec.h"
 #include "lcmtypes/event_codec.h"
@@ -15,7 +16,7 @@
 namespace anchord {
 
 Journal::Journal(World world, std::unique_ptr<FrameLog> log, Statistics& statistics,
-                 UpdateTimes& times, Hooks hooks)
+                 UpdateTimes& times, Hooks hooks, std::unique_ptr<Checkpointer> checkpointer)
     : world_(std::move(world)),
       durable_(world_),
       background_(world_.background()),
@@ -24,6 +25,7 @@ Journal::Journal(World world, std::unique_ptr<FrameLog> log, Statistics& statist
       times_(times),
       pace_(background_->knowledge.limits.frame_budget),
       hooks_(std::move(hooks)),
+      checkpointer_(std::move(checkpointer)),
       published_(world_.belief()) {}
 
 Journal::~Journal() {
@@ -38,8 +40,11 @@ Journal::~Journal() {
 
 Status Journal::restore(const std::atomic<bool>& cancelled) {
   Status folded = Done{};
-  Status read = log_->for_each(1, [&](const LoggedFrame& logged) {
-    folded = apply(logged);
+  const std::int64_t resumed = checkpointer_ ? checkpointer_->resume(world_, *log_) : 0;
+  const auto begin = Clock::now();
+  Status read = log_->for_each(resumed + 1, [&](const LoggedFrame& logged) {
+    const auto accepted = read_logged(logged);
+    folded = accepted ? apply(world_, *accepted) : Status(accepted.error());
     if (folded && hooks_.alive) hooks_.alive();
     if (!folded)
       folded = Error{folded.error().code, folded.error().field,
@@ -50,6 +55,7 @@ Status Journal::restore(const std::atomic<bool>& cancelled) {
   });
   if (!read) return read;
   if (!folded || cancelled) return folded;
+  count_work(begin);
   sequence_ = durable_sequence_ = log_->last_sequence();
   restored_late_ = world_.late_frames();
   durable_ = world_;
@@ -58,17 +64,10 @@ Status Journal::restore(const std::atomic<bool>& cancelled) {
   return Done{};
 }
 
-/// What stands in the log.
-Status Journal::apply(const LoggedFrame& logged) {
-  if (logged.kind == LoggedFrame::Kind::kEvent) {
-    const auto message = decode_event(logged.bytes);
-    if (!message) return message.error();
-    const auto number = world_.apply(message->event);
-    return number ? Status(Done{}) : Status(number.error());
-  }
-  const auto message = decode_frame(logged.bytes);
-  if (!message) return message.error();
-  return world_.apply(message->frame, logged.work);
+/// What folding since then would take at a start, about.
+void Journal::count_work(Clock::time_point begin) {
+  if (checkpointer_)
+    checkpointer_->worked(std::chrono::duration<double>(Clock::now() - begin).count());
 }
 
 Result<std::vector<Task>> Journal::tasks() {
@@ -141,6 +140,7 @@ bool Journal::commit_is_due() const {
 
 /// All of the submission or none.
 void Journal::take(Submission submission) {
+  const auto begin = Clock::now();
   std::optional<World> before;  // only several can fail half-way
   if (submission.size() > 1) before = world_;
   std::vector<Folded> folded;
@@ -170,6 +170,7 @@ void Journal::take(Submission submission) {
     roll_back(logged.error());
     return refuse(submission, nullptr, logged.error());
   }
+  count_work(begin);
   for (const Folded& one : folded) publish(one.after);
 
   if (!batch_open_) {  // all of it is durable already
@@ -291,6 +292,7 @@ Status Journal::append(const std::vector<Folded>& folded, const std::vector<Task
     LoggedFrame frame = one.frame;
     frame.sequence = ++sequence_;
     if (Status logged = log_->append(frame); !logged) return logged;
+    last_checksum_ = checksum(frame);
   }
   for (const Task& task : tasks)
     if (Status kept = log_->put_task(task.id, task.ended_already(), canonical_bytes(task)); !kept)
@@ -303,6 +305,8 @@ void Journal::commit() {
   if (std::exchange(failing_, false)) spdlog::info("frames are durable again");
   batch_open_ = awaited_ = false;
   durable_ = world_;
+  if (checkpointer_ && durable_sequence_ != sequence_)
+    checkpointer_->take(durable_, sequence_, last_checksum_);
   durable_sequence_ = sequence_;
   ++statistics_.commits;
   statistics_.late = world_.late_frames() - restored_late_;

@@ -16,6 +16,7 @@
 #include "core/event.h"
 #include "core/frame.h"
 #include "core/verification.h"
+#include "daemon/checkpointer.h"
 #include "daemon/intake.h"
 #include "daemon/pace.h"
 #include "daemon/statistics.h"
@@ -74,15 +75,16 @@ class Journal {
   /// How long frames that wait are still applied at the end; those left over are refused.
   static constexpr std::chrono::milliseconds kEnding{500};
 
+  /// `checkpointer` may be null: all of the log is folded then.
   Journal(World world, std::unique_ptr<FrameLog> log, Statistics& statistics, UpdateTimes& times,
-          Hooks hooks);
+          Hooks hooks, std::unique_ptr<Checkpointer> checkpointer = nullptr);
   /// Finishes what has been submitted, within kEnding, commits, ends.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// Folds the log; to be called once, before start(). Stops when `cancelled` turns true.
-  /// Fails if a logged frame cannot be read under this configuration.
+  /// Folds the log, from the newest checkpoint on; to be called once, before start(). Stops when
+  /// `cancelled` turns true. Fails if a logged frame cannot be read under this configuration.
   Status restore(const std::atomic<bool>& cancelled);
   /// The tasks that the log keeps; after restore(), before start().
   Result<std::vector<Task>> tasks();
@@ -97,6 +99,8 @@ class Journal {
   /// What to answer from. Safe from any thread.
   Snapshot snapshot() const { return {published_.load(), background_}; }
   std::int64_t logged_frames() const { return sequence_; }
+  /// How many of them the newest checkpoint holds; 0 without one. Safe from any thread.
+  std::int64_t checkpoint() const { return checkpointer_ ? checkpointer_->newest() : 0; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -120,7 +124,7 @@ class Journal {
   Status fold(const Event& event, std::vector<Folded>& folded, Receipt& receipt);
   Result<bool> repeated(const LoggedFrame& frame, const std::vector<Folded>& folded);
   Status append(const std::vector<Folded>& folded, const std::vector<Task>& tasks);
-  Status apply(const LoggedFrame& logged);
+  void count_work(Clock::time_point begin);
   void commit();
   void roll_back(const Error& why);
   void refuse(Submission& submission, const Frame* frame, const Error& why);
@@ -133,6 +137,8 @@ class Journal {
   UpdateTimes& times_;
   Pace pace_;
   Hooks hooks_;
+  const std::unique_ptr<Checkpointer> checkpointer_;
+  std::uint32_t last_checksum_ = 0;  ///< of what was appended last
   std::atomic<std::int64_t> sequence_{0};
   std::int64_t durable_sequence_ = 0;
   std::uint64_t restored_late_ = 0;  ///< late frames before the start

@@ -51,8 +51,10 @@ Service::Service(Knowledge knowledge, const ServiceOptions& options, std::unique
     // While a long history is restored the start may take as long as it goes on.
     sd_notify(0, ready_ ? "WATCHDOG=1" : "WATCHDOG=1\nEXTEND_TIMEOUT_USEC=60000000");
   };
+  auto checkpointer = std::make_unique<Checkpointer>(options.data_directory, world.background(),
+                                                     options.checkpoint_interval);
   journal_ = std::make_unique<Journal>(std::move(world), std::move(log), statistics_, times_,
-                                       std::move(hooks));
+                                       std::move(hooks), std::move(checkpointer));
   verifications_ = std::make_unique<Verifications>(
       *journal_, robots_, [this](const Task& task, Utime now) { lcm_->publish_task(task, now); });
 }
@@ -64,8 +66,8 @@ Status Service::start(const std::atomic<bool>& cancelled) {
   if (Status restored = journal_->restore(cancelled); !restored) return restored;
   if (cancelled) return Done{};
   if (journal_->logged_frames() > 0)
-    spdlog::info("restored the belief from {} frames in {:.1f} s", journal_->logged_frames(),
-                 seconds() - begin);
+    spdlog::info("restored the belief from {} frames, {} of them by a checkpoint, in {:.1f} s",
+                 journal_->logged_frames(), journal_->checkpoint(), seconds() - begin);
   if (Status taken_up = verifications_->restore(); !taken_up) return taken_up;
   const auto answerer = [backend = backend()](const HttpTarget& target) {
     return answer_get(target, backend);

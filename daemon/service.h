@@ -18,6 +18,7 @@ struct ServiceOptions {
   std::string data_directory = "anchord-data";
   std::string lcm_url;  ///< empty: LCM's own default with ttl 0
   std::string http_address = "127.0.0.1:7780";
+  double checkpoint_interval = 0.5;  ///< s of work on frames between checkpoints
   /// The program that receives LCM for this one: its main() calls receive_lcm(). Itself, so that
   /// the two are of one version though another was installed meanwhile.
   std::string lcm_receiver = "/proc/self/exe";

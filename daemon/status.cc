@@ -84,6 +84,7 @@ HttpResponse status_answer(const StatusSources& from) {
   out["update_us"] = {{"median", times.median_us}, {"p99", times.p99_us}, {"max", times.max_us}};
   out["log"] = {{"directory", from.data_directory},
                 {"frames", from.journal.logged_frames()},
+                {"checkpoint", from.journal.checkpoint()},
                 {"bytes", bytes_in(from.data_directory)},
                 {"commits", s.commits.load()},
                 {"failures", s.commit_failures.load()}};

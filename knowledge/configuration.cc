@@ -1,6 +1,8 @@
 #include "knowledge/configuration.h"
 
+#include <cstdint>
 #include <exception>
+#include <nlohmann/json.hpp>
 
 #include "knowledge/configuration_file.h"
 #include "knowledge/configuration_reader.h"
@@ -8,12 +10,20 @@
 namespace anchord {
 namespace {
 
+/// FNV-1a, 64 bits (Fowler, Noll, Vo).
+std::uint64_t fingerprint_of(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
+
 template <typename... Source>
 Configuration configuration_of(const Source&... source) {
   ConfigurationMistakes mistakes;
   try {
     if (const auto document = load_document(source..., mistakes)) {
       Knowledge knowledge = read_knowledge(*document, mistakes);
+      knowledge.fingerprint = fingerprint_of(document->dump());
       if (mistakes.empty()) return knowledge;
     }
   } catch (const std::exception& error) {  // out of memory, a path that the system cannot have

@@ -196,6 +196,8 @@ struct Limits {
 };
 
 struct Knowledge {
+  /// Of the configuration's text, includes merged, comments gone: of the same one, the same.
+  std::uint64_t fingerprint = 0;
   std::string map_frame = "map";
   int dims = 3;
   Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< z = 0 in a 2-D world

@@ -147,7 +147,8 @@ std::string unused(const std::string& prefix) {
 Status replace(const std::string& database, const std::string& made, const std::string& kept) {
   std::error_code error;
   // The WAL first: with another database it would be taken for that one's.
-  for (const char* part : {"-wal", "-shm", "-mark", ""})
+  for (const char* part :
+       {"-wal", "-shm", "-mark", "-checkpoints-wal", "-checkpoints-shm", "-checkpoints", ""})
     if (fs::exists(database + part) && !error) fs::rename(database + part, kept + part, error);
   for (const char* part : {"-mark", ""})
     if (fs::exists(made + part) && !error) fs::rename(made + part, database + part, error);

@@ -30,6 +30,8 @@ DaemonProcess::DaemonProcess(const TestFolder& folder, Options options,
                  "--data",   folder / options.data,
                  "--lcm",    options.lcm,
                  "--http",   options.http};
+  if (!options.checkpoint_interval.empty())
+    arguments.insert(arguments.end(), {"--checkpoint-interval", options.checkpoint_interval});
   arguments.insert(arguments.begin(), ANCHORD);
   std::vector<char*> argv, environment;
   for (auto& argument : arguments) argv.push_back(argument.data());

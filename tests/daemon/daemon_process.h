@@ -24,6 +24,7 @@ class DaemonProcess {
     std::string http = "127.0.0.1:0";      ///< port 0: a free one
     std::string scene = kScene;            ///< the configuration
     std::vector<std::string> environment;  ///< NAME=VALUE, beside that of the test
+    std::string checkpoint_interval = {};  ///< s; empty: the default
     /// In the child before it becomes the daemon; it ends with this status unless that is 0.
     std::function<int()> prepare;
   };

@@ -71,9 +71,8 @@ std::string status_text(const Json& answer, const std::string& server, const Sty
                     (flag(answer, "ready") ? ", ready" : ", not ready"));
   if (const auto uptime_s = number(answer, "uptime_s")) add("up for", duration(*uptime_s));
   add("newest frame", date_and_time(utime(answer, "utime")));
-  add("frames", counters(items(answer, "frames"),
-                         {"accepted", "repeated", "refused", "unstored", "ahead", "overrun", "late",
-                          "lost", "cut"}));
+  add("frames", counters(items(answer, "frames"), {"accepted", "repeated", "refused", "unstored",
+                                                   "ahead", "overrun", "late", "lost", "cut"}));
   add("queue", waiting(items(answer, "queue")));
   add("belief", belief(answer));
   add("update", update_times(items(answer, "update_us")));
