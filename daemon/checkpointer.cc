@@ -74,9 +74,12 @@ std::int64_t Checkpointer::resume(World& world, FrameLog& log) {
   }
 }
 
+bool Checkpointer::due() const {
+  return store_ && !writing_ && (interval_ <= 0 || since_ >= std::max(interval_, took_ / kShare));
+}
+
 void Checkpointer::take(const World& durable, std::int64_t sequence, std::uint32_t frame_checksum) {
-  const bool due = interval_ <= 0 || since_ >= std::max(interval_, took_ / kShare);
-  if (!store_ || !due || writing_.exchange(true)) return;
+  if (!due() || writing_.exchange(true)) return;
   since_ = 0;
   // Runs when the task has gone, whether or not it was done.
   const std::shared_ptr<void> end(nullptr, [this](void*) { writing_ = false; });

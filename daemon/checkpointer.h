@@ -29,8 +29,10 @@ class Checkpointer {
 
   /// Counts work on frames.
   void worked(double seconds) { since_ += seconds; }
-  /// Told after a batch: what is durable, its last frame or event and that one's checksum. Costs
-  /// next to nothing.
+  /// Whether take() would take one.
+  bool due() const;
+  /// Takes one of what is durable, if it is due: its last frame or event and that one's checksum.
+  /// Costs next to nothing.
   void take(const World& durable, std::int64_t sequence, std::uint32_t frame_checksum);
 
   /// The sequence of the newest checkpoint. Safe from any thread.

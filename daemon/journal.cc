@@ -41,11 +41,14 @@ Journal::~Journal() {
 Status Journal::restore(const std::atomic<bool>& cancelled) {
   Status folded = Done{};
   const std::int64_t resumed = checkpointer_ ? checkpointer_->resume(world_, *log_) : 0;
-  const auto begin = Clock::now();
   Status read = log_->for_each(resumed + 1, [&](const LoggedFrame& logged) {
     const auto accepted = read_logged(logged);
+    const auto begin = Clock::now();
     folded = accepted ? apply(world_, *accepted) : Status(accepted.error());
     if (folded && hooks_.alive) hooks_.alive();
+    if (folded) count_work(begin);
+    if (folded && checkpointer_ && checkpointer_->due())  // should this start be killed, too
+      checkpointer_->take(world_, logged.sequence, checksum(logged));
     if (!folded)
       folded = Error{folded.error().code, folded.error().field,
                      folded.error().message + " (frame " + std::to_string(logged.sequence) +
@@ -55,7 +58,6 @@ Status Journal::restore(const std::atomic<bool>& cancelled) {
   });
   if (!read) return read;
   if (!folded || cancelled) return folded;
-  count_work(begin);
   sequence_ = durable_sequence_ = log_->last_sequence();
   restored_late_ = world_.late_frames();
   durable_ = world_;
@@ -292,7 +294,6 @@ Status Journal::append(const std::vector<Folded>& folded, const std::vector<Task
     LoggedFrame frame = one.frame;
     frame.sequence = ++sequence_;
     if (Status logged = log_->append(frame); !logged) return logged;
-    last_checksum_ = checksum(frame);
   }
   for (const Task& task : tasks)
     if (Status kept = log_->put_task(task.id, task.ended_already(), canonical_bytes(task)); !kept)
@@ -305,8 +306,8 @@ void Journal::commit() {
   if (std::exchange(failing_, false)) spdlog::info("frames are durable again");
   batch_open_ = awaited_ = false;
   durable_ = world_;
-  if (checkpointer_ && durable_sequence_ != sequence_)
-    checkpointer_->take(durable_, sequence_, last_checksum_);
+  if (checkpointer_ && durable_sequence_ != sequence_ && checkpointer_->due())
+    checkpointer_->take(durable_, sequence_, log_->last_checksum());
   durable_sequence_ = sequence_;
   ++statistics_.commits;
   statistics_.late = world_.late_frames() - restored_late_;

@@ -138,7 +138,6 @@ class Journal {
   Pace pace_;
   Hooks hooks_;
   const std::unique_ptr<Checkpointer> checkpointer_;
-  std::uint32_t last_checksum_ = 0;  ///< of what was appended last
   std::atomic<std::int64_t> sequence_{0};
   std::int64_t durable_sequence_ = 0;
   std::uint64_t restored_late_ = 0;  ///< late frames before the start

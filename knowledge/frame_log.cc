@@ -54,6 +54,7 @@ struct FrameLog::Store {
   std::string directory;
   CommitMark mark;
   bool damaged = false;
+  std::uint32_t last_checksum = 0;
 
   /// Takes the lock and the database when all goes well.
   static Result<std::unique_ptr<Store>> prepare(DirectoryLock& lock, Database& database,
@@ -201,10 +202,12 @@ Status FrameLog::append(const LoggedFrame& frame) {
       .bind(5, std::span<const std::uint8_t>(frame.bytes))
       .bind(6, static_cast<std::int64_t>(frame.kind));
   if (frame.work) insert.bind(7, *frame.work);
-  insert.bind(8, static_cast<std::int64_t>(checksum(frame)));
+  const std::uint32_t sum = checksum(frame);
+  insert.bind(8, static_cast<std::int64_t>(sum));
   auto step = insert.step();
   if (step) {
     store_->last_sequence = frame.sequence;
+    store_->last_checksum = sum;
     return Done{};
   }
   if (store_->database.extended_code() == SQLITE_CONSTRAINT_UNIQUE)
@@ -234,6 +237,8 @@ void FrameLog::rollback() {
 }
 
 std::int64_t FrameLog::last_sequence() const { return store_->last_sequence; }
+
+std::uint32_t FrameLog::last_checksum() const { return store_->last_checksum; }
 
 Result<FrameLog::Presence> FrameLog::contains(std::string_view robot, std::string_view sensor,
                                               Utime utime, const std::vector<std::uint8_t>& bytes) {

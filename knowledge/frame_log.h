@@ -66,6 +66,8 @@ class FrameLog {
 
   /// 0 while the log is empty.
   std::int64_t last_sequence() const;
+  /// checksum() of what was appended last; 0 before anything was.
+  std::uint32_t last_checksum() const;
 
   enum class Presence { kNo, kSame, kDifferent };
   /// Whether the sensor has a frame of that utime, and if so, whether with these bytes.

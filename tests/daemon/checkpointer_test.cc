@@ -98,6 +98,14 @@ TEST_F(CheckpointerTest, ItGoesOnAsIfItHadNeverStopped) {
   EXPECT_EQ(answers(*journal), believed);
 }
 
+TEST_F(CheckpointerTest, AStartThatFoldsLeavesOneForTheNext) {
+  live(1, 20, 10);
+  change_checkpoints("DELETE FROM checkpoints");
+  restored();  // its end waits for what is being written
+  restored();
+  EXPECT_LT(at_start_, logged_);
+}
+
 TEST_F(CheckpointerTest, AnotherConfigurationFoldsTheLog) {
   live(1, 20, 10);
   auto other = nlohmann::json::parse(kScene);
