@@ -40,8 +40,8 @@ Journal::~Journal() {
 
 Status Journal::restore(const std::atomic<bool>& cancelled) {
   Status folded = Done{};
-  const std::int64_t resumed = checkpointer_ ? checkpointer_->resume(world_, *log_) : 0;
-  Status read = log_->for_each(resumed + 1, [&](const LoggedFrame& logged) {
+  if (checkpointer_) resumed_ = checkpointer_->resume(world_, *log_);
+  Status read = log_->for_each(resumed_ + 1, [&](const LoggedFrame& logged) {
     const auto accepted = read_logged(logged);
     const auto begin = Clock::now();
     folded = accepted ? apply(world_, *accepted) : Status(accepted.error());

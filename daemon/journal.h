@@ -99,6 +99,8 @@ class Journal {
   /// What to answer from. Safe from any thread.
   Snapshot snapshot() const { return {published_.load(), background_}; }
   std::int64_t logged_frames() const { return sequence_; }
+  /// How many of them restore() took from a checkpoint.
+  std::int64_t resumed_frames() const { return resumed_; }
   /// How many of them the newest checkpoint holds; 0 without one. Safe from any thread.
   std::int64_t checkpoint() const { return checkpointer_ ? checkpointer_->newest() : 0; }
 
@@ -140,6 +142,7 @@ class Journal {
   const std::unique_ptr<Checkpointer> checkpointer_;
   std::atomic<std::int64_t> sequence_{0};
   std::int64_t durable_sequence_ = 0;
+  std::int64_t resumed_ = 0;         ///< the sequence that restore() went on from
   std::uint64_t restored_late_ = 0;  ///< late frames before the start
   std::vector<Pending> pending_;
   Clock::time_point batch_began_;

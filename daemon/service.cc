@@ -67,7 +67,7 @@ Status Service::start(const std::atomic<bool>& cancelled) {
   if (cancelled) return Done{};
   if (journal_->logged_frames() > 0)
     spdlog::info("restored the belief from {} frames, {} of them by a checkpoint, in {:.1f} s",
-                 journal_->logged_frames(), journal_->checkpoint(), seconds() - begin);
+                 journal_->logged_frames(), journal_->resumed_frames(), seconds() - begin);
   if (Status taken_up = verifications_->restore(); !taken_up) return taken_up;
   const auto answerer = [backend = backend()](const HttpTarget& target) {
     return answer_get(target, backend);

@@ -83,7 +83,7 @@ TEST_F(CheckpointerTest, AStartFoldsOnlyWhatCameAfter) {
   live(1, 30, 20);
   const auto journal = restored();
   EXPECT_GE(journal->checkpoint(), 20);
-  EXPECT_EQ(at_start_, logged_ - journal->checkpoint());
+  EXPECT_EQ(at_start_, logged_ - journal->resumed_frames());
   EXPECT_EQ(journal->logged_frames(), logged_);
   EXPECT_EQ(answers(*journal), believed_);
 }
