@@ -33,6 +33,7 @@ Status resume_at(World& world, FrameLog& log, const StoredCheckpoint& checkpoint
     return invalid("", "belongs to another log");
   auto state = read_checkpoint(checkpoint.bytes, world);
   if (!state) return state.error();
+  if (state->taken != checkpoint.sequence) return invalid("", "counts otherwise than the log");
   std::vector<Accepted> recent;
   for (const WorldState::Step& step : state->recent) {
     const auto logged = at(log, step.number);

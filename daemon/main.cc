@@ -79,7 +79,8 @@ int main(int argc, char** argv) try {
   app.add_option("--lcm", options.lcm_url, "LCM URL; default: LCM's own with ttl 0");
   app.add_option("--http", options.http_address, "ADDR:PORT to serve on")->capture_default_str();
   app.add_option("--checkpoint-interval", options.checkpoint_interval,
-                 "seconds of work on frames that a start may have to do again; 0: none")
+                 "seconds of work on frames between checkpoints, which a start does again; 0: one "
+                 "after each batch")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.set_version_flag("--version", ANCHORD_VERSION);

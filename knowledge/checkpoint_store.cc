@@ -23,18 +23,22 @@ std::int64_t crc_of(const std::vector<std::uint8_t>& bytes) {
 }
 
 /// A loss of power may take the last checkpoint along (synchronous=NORMAL), never an older one.
-Result<Database> prepared(const std::string& path) {
+/// `code`: SQLite's own, where it fails.
+Result<Database> prepared(const std::string& path, int& code) {
   auto database = Database::open(path);
   if (!database) return database;
   auto mode = database->read_text("PRAGMA journal_mode=WAL");
+  code = database->extended_code() & 0xff;
   if (!mode) return mode.error();
   auto version = database->read_integer("PRAGMA user_version");
+  code = database->extended_code() & 0xff;
   if (!version) return version.error();
   if (*version != 0 && *version != kVersion)
     return Error{ErrorCode::kConflict, "", path + " is of another version"};
+  if (Status set = database->execute("PRAGMA synchronous=NORMAL"); !set) return set.error();
+  if (*version == kVersion) return database;
   const Status made = database->execute(
-      "PRAGMA synchronous=NORMAL;"
-      "CREATE TABLE IF NOT EXISTS checkpoints (sequence INTEGER PRIMARY KEY, "
+      "CREATE TABLE checkpoints (sequence INTEGER PRIMARY KEY, "
       "frame_checksum INTEGER NOT NULL, configuration INTEGER NOT NULL, "
       "checksum INTEGER NOT NULL, bytes BLOB NOT NULL) STRICT;"
       "PRAGMA user_version=" +
@@ -47,11 +51,13 @@ Result<Database> prepared(const std::string& path) {
 
 Result<CheckpointStore> CheckpointStore::open(const std::string& directory) {
   const std::string path = directory + "/anchord.db-checkpoints";
-  auto database = prepared(path);
-  if (!database) {
+  int code = SQLITE_OK;
+  auto database = prepared(path, code);
+  if (!database && (code == SQLITE_CORRUPT || code == SQLITE_NOTADB ||
+                    database.error().code == ErrorCode::kConflict)) {
     std::error_code ignored;
     for (const char* part : {"", "-wal", "-shm"}) std::filesystem::remove(path + part, ignored);
-    database = prepared(path);
+    database = prepared(path, code);
   }
   if (!database) return database.error();
   return CheckpointStore(*std::move(database));

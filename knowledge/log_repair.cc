@@ -82,6 +82,12 @@ class Salvage {
         ++report.left_out;
         continue;
       }
+      const bool all_before = place.sequence == report.saved + 1;
+      if (!all_before && !options_.doubtful_events && frame.kind == LoggedFrame::Kind::kEvent) {
+        ++report.left_out;
+        ++report.doubtful;
+        continue;
+      }
       frame.sequence = ++report.saved;
       Status appended = log.append(frame);
       // Two rows of one sensor and time: of an index that was damaged already, or a failed batch.
@@ -143,15 +149,21 @@ std::string unused(const std::string& prefix) {
     if (std::string name = prefix + std::to_string(n); !fs::exists(name)) return name;
 }
 
-/// Puts the new log's files in the place of the old ones, which get other names.
+/// Puts the new log's files in the place of the old ones, which get other names. The mark comes
+/// last: until then a start finds less than was acknowledged, and refuses.
 Status replace(const std::string& database, const std::string& made, const std::string& kept) {
   std::error_code error;
+  if (fs::exists(database + "-mark")) fs::copy_file(database + "-mark", kept + "-mark", error);
   // The WAL first: with another database it would be taken for that one's.
   for (const char* part :
-       {"-wal", "-shm", "-mark", "-checkpoints-wal", "-checkpoints-shm", "-checkpoints", ""})
+       {"-wal", "-shm", "-checkpoints-wal", "-checkpoints-shm", "-checkpoints", ""})
     if (fs::exists(database + part) && !error) fs::rename(database + part, kept + part, error);
-  for (const char* part : {"-mark", ""})
-    if (fs::exists(made + part) && !error) fs::rename(made + part, database + part, error);
+  if (!error) fs::rename(made, database, error);
+  if (fs::exists(made + "-mark")) {
+    if (!error) fs::rename(made + "-mark", database + "-mark", error);
+  } else if (!error) {
+    fs::remove(database + "-mark", error);  // there is a copy
+  }
   if (error)
     return Error{ErrorCode::kIo, "",
                  "cannot rename: " + error.message() + "; the old log is " + database + " or " +
@@ -187,6 +199,10 @@ Result<RepairReport> repair_log(const std::string& directory, const RepairOption
     auto log = FrameLog::open(workshop);
     made = log ? salvage.write(**log, committed, report) : Status(log.error());
   }
+  // What closing it could not move into the database, for want of room, would be lost.
+  std::error_code none;
+  if (made && fs::file_size(workshop + "/anchord.db-wal", none) > 0 && !none)
+    made = Error{ErrorCode::kStorage, "", "the disk is too full for a new database"};
   if (made) {
     report.kept_as = unused(database + ".corrupt-");
     made = replace(database, workshop + "/anchord.db", report.kept_as);

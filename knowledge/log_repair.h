@@ -18,12 +18,16 @@ struct RepairOptions {
   std::function<bool(const LoggedFrame&)> readable;
   std::optional<Utime> until = {};  ///< leaves out what is of a later time
   bool events = true;               ///< false: leaves them out
+  /// false: leaves out events that stand behind something that is lost or left out. What they name,
+  /// other events by number and objects counted by birth, may be something else then.
+  bool doubtful_events = true;
 };
 
 struct RepairReport {
   std::int64_t saved = 0;  ///< frames and events
   std::int64_t tasks = 0;
   std::int64_t left_out = 0;  ///< by the options
+  std::int64_t doubtful = 0;  ///< of these, those of RepairOptions::doubtful_events
   struct Range {
     std::int64_t first, last;
     bool operator==(const Range&) const = default;

@@ -51,7 +51,8 @@ Error io(std::string message) { return {ErrorCode::kIo, "", std::move(message)};
 Result<bool> recognise(Database& database, const std::string& path) {
   auto refuse = [&](const std::string& what) {
     return Error{ErrorCode::kConflict, "",
-                 path + " " + what + "; move it away, or name another directory with --data"};
+                 path + " " + what + "; move it and " + path +
+                     "-mark away, or name another directory with --data"};
   };
   auto application = database.read_integer("PRAGMA application_id");
   if (!application) {

@@ -28,8 +28,9 @@ void add_repair_command(CLI::App& app, RepairCall& call) {
   command.add_option("DIR", call.directory, "the daemon's data directory")->required();
   command.add_option("--until", call.until,
                      "leave out what is later: now, 2026-11-22 18:00, or microseconds since 1970");
-  command.add_flag("--without-events", call.without_events,
-                   "leave out events, which may name what was lost");
+  command.add_flag("--without-events", call.without_events, "leave out events");
+  command.add_flag("--all-events", call.all_events,
+                   "keep events behind what is lost, though what they name may be another thing");
 }
 
 Result<Utime> read_time(const std::string& text) {
@@ -51,7 +52,7 @@ Result<Utime> read_time(const std::string& text) {
 }
 
 Result<std::string> repair(const RepairCall& call) {
-  RepairOptions options{readable, {}, !call.without_events};
+  RepairOptions options{readable, {}, !call.without_events, call.all_events};
   if (!call.until.empty()) {
     const auto until = read_time(call.until);
     if (!until) return until.error();
@@ -74,7 +75,11 @@ std::string repair_text(const RepairReport& report) {
   }
   text += lost == 0 ? "nothing that was acknowledged is known to be lost\n"
                     : "lost " + std::to_string(lost) + ": number" + ranges + " of the old log\n";
-  if (report.left_out > 0) text += "left out " + std::to_string(report.left_out) + " as asked\n";
+  if (const std::int64_t asked = report.left_out - report.doubtful; asked > 0)
+    text += "left out " + std::to_string(asked) + " as asked\n";
+  if (report.doubtful > 0)
+    text += "left out " + std::to_string(report.doubtful) +
+            " events behind what is lost: they may name something else now (--all-events)\n";
   return text + "the old database is kept as " + report.kept_as + "\n";
 }
 

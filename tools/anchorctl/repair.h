@@ -14,7 +14,7 @@ namespace anchord {
 struct RepairCall {
   std::string directory;
   std::string until;  ///< "": all; see read_time()
-  bool without_events = false;
+  bool without_events = false, all_events = false;
 };
 
 void add_repair_command(CLI::App& app, RepairCall& call);
