@@ -16,19 +16,20 @@
 
 namespace {
 
-std::string folder() {
-  static const std::string made = [] {
-    std::string name = (std::getenv("TMPDIR") ? std::getenv("TMPDIR") : "/dev/shm");
+/// Goes with its files when the program ends.
+struct Folder {
+  std::string name = std::getenv("TMPDIR") ? std::getenv("TMPDIR") : "/dev/shm";
+  Folder() {
     name += "/log_pages_XXXXXX";
     require(mkdtemp(name.data()) != nullptr);
-    std::atexit([] {
-      for (const char* file : {"/a.db", "/a.db-wal"}) ::unlink((folder() + file).c_str());
-      ::rmdir(folder().c_str());
-    });
-    return name;
-  }();
-  return made;
-}
+  }
+  ~Folder() {
+    for (const char* file : {"/a.db", "/a.db-wal"}) ::unlink((name + file).c_str());
+    ::rmdir(name.c_str());
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+};
 
 void write(const std::string& path, const std::uint8_t* data, std::size_t size) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
@@ -39,7 +40,8 @@ void write(const std::string& path, const std::uint8_t* data, std::size_t size) 
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const std::string path = folder() + "/a.db";
+  static const Folder folder;
+  const std::string path = folder.name + "/a.db";
   const std::size_t database = std::min(size - 1, data[0] * std::size_t{4096});
   write(path, data + 1, database);
   write(path + "-wal", data + 1 + database, size - 1 - database);
@@ -54,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const std::uint8_t byte : value.bytes) sum += byte;
     });
   }
-  static volatile std::uint64_t kept;
+  [[maybe_unused]] static volatile std::uint64_t kept;
   kept = sum;  // so that the bytes are read
   return 0;
 }
