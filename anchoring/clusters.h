@@ -97,6 +97,7 @@ class Clusters {
   void erase(std::size_t index);
   void replace(std::size_t index, Pointer cluster, const Background& background);
 
+  /// What it holds, for a checkpoint.
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(chunks_, size_);

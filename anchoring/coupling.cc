@@ -126,10 +126,10 @@ void tie_probable(const ScratchVector<PredictedCluster>& clusters, int detection
   for (const std::size_t e : rare) {
     const std::size_t c = edges[e].cluster, z = clusters.size() + pairings[e].detection;
     if (ties.find(c) == ties.find(z)) continue;
+    const double log_tie = std::log(pairings[e].probability);
     double worlds = 1;  // that are worth as much as the tie
     const auto count = [&](std::size_t member) {
-      if (member < clusters.size())
-        worlds *= worlds_above(clusters[member], std::log(pairings[e].probability));
+      if (member < clusters.size()) worlds *= worlds_above(clusters[member], log_tie);
     };
     ties.with_all(c, count);
     ties.with_all(z, count);

@@ -25,6 +25,7 @@ class ScoreTrace {
   /// Takes the score that this was said of.
   void take(const ScoreEvidence& evidence, Utime utime);
 
+  /// What it holds, for a checkpoint.
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(mean_, response_, variance_, utime_);

@@ -69,6 +69,7 @@ class SeenShare {
   /// At most how much the shares of any part differ.
   static double difference(const SeenShare& a, const SeenShare& b);
 
+  /// What it holds, for a checkpoint.
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(curve_);

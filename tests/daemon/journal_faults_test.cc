@@ -5,6 +5,7 @@
 #include <future>
 
 #include "daemon/journal.h"
+#include "tests/daemon/answers.h"
 #include "tests/daemon/scene.h"
 #include "tests/knowledge/fault_vfs.h"
 
@@ -12,13 +13,6 @@ namespace anchord {
 namespace {
 
 using Fault = FaultVfs::Fault;
-
-std::string answers(const Journal& journal) {
-  std::string bytes;
-  for (const char* target : {"/v1/objects?min_p=0", "/v1/hypotheses", "/v1/count"})
-    bytes += answer(*parse_target(target), journal.snapshot()).body;
-  return bytes;
-}
 
 class JournalFaultsTest : public ::testing::Test {
  protected:
@@ -56,19 +50,19 @@ TEST_F(JournalFaultsTest, AFullDiskRefusesUntilThereIsRoom) {
     auto journal = start(folder_ / "data");
     ASSERT_TRUE(journal);
     for (int i = 1; i <= 5; ++i) ASSERT_TRUE(send(*journal, i).ok());
-    const std::string before = answers(*journal);
+    const std::string before = answers(journal->snapshot());
     disk.set_room(0);
     for (int i = 6; i <= 8; ++i) {
       const auto refused = send(*journal, i);
       ASSERT_FALSE(refused.ok());
       EXPECT_EQ(refused.error().code, ErrorCode::kStorage);
     }
-    EXPECT_EQ(answers(*journal), before);
+    EXPECT_EQ(answers(journal->snapshot()), before);
     const auto again = send(*journal, 5);
     EXPECT_TRUE(again.ok() && again->repeated == 1) << "what is there can be acknowledged";
     disk.set_room(INT64_MAX);
     for (int i = 7; i <= 9; ++i) EXPECT_TRUE(send(*journal, i).ok());
-    after = answers(*journal);
+    after = answers(journal->snapshot());
   }
   EXPECT_EQ(statistics_.unstored, 3u);
   EXPECT_EQ(statistics_.refused, 3u);
@@ -77,7 +71,7 @@ TEST_F(JournalFaultsTest, AFullDiskRefusesUntilThereIsRoom) {
   EXPECT_NE(refusals_[0].find("full"), std::string::npos) << refusals_[0];
   const auto journal = start(folder_ / "data");
   ASSERT_TRUE(journal);
-  EXPECT_EQ(answers(*journal), after);
+  EXPECT_EQ(answers(journal->snapshot()), after);
 }
 
 TEST_F(JournalFaultsTest, AFaultAtAnyPointIsRefusedOrHasNoEffect) {
@@ -100,14 +94,14 @@ TEST_F(JournalFaultsTest, AFaultAtAnyPointIsRefusedOrHasNoEffect) {
         }
         EXPECT_TRUE(receipt.ok()) << receipt.error().text();
       }
-      believed = answers(*journal);
+      believed = answers(journal->snapshot());
       operations = std::min(operations, disk.operations());
     }
     disk.heal();
     const auto journal = start(directory);
     ASSERT_TRUE(journal);
     EXPECT_EQ(journal->logged_frames(), 4);
-    EXPECT_EQ(answers(*journal), believed);
+    EXPECT_EQ(answers(journal->snapshot()), believed);
   }
 }
 

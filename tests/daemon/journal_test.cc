@@ -6,17 +6,11 @@
 
 #include "knowledge/sqlite.h"
 #include "lcmtypes/codec.h"
+#include "tests/daemon/answers.h"
 #include "tests/daemon/scene.h"
 
 namespace anchord {
 namespace {
-
-std::string answers(const Journal& journal) {
-  std::string bytes;
-  for (const char* target : {"/v1/objects?min_p=0", "/v1/hypotheses", "/v1/count"})
-    bytes += answer(*parse_target(target), journal.snapshot()).body;
-  return bytes;
-}
 
 class JournalTest : public ::testing::Test {
  protected:
@@ -193,7 +187,7 @@ TEST_F(JournalTest, AFullDiskRefusesAndTheBeliefGoesBack) {
     ASSERT_TRUE(journal);
     Result<Receipt> receipt = Receipt{};
     while (receipt && durable < 10'000) {
-      kept = answers(*journal);
+      kept = answers(journal->snapshot());
       // By twos: the second may find the disk full when the first did not.
       const int next = 2 * durable;
       receipt = apply(*journal, {frame_number(next), frame_number(next + 1)});
@@ -201,7 +195,7 @@ TEST_F(JournalTest, AFullDiskRefusesAndTheBeliefGoesBack) {
     }
     ASSERT_FALSE(receipt.ok());
     EXPECT_EQ(receipt.error().code, ErrorCode::kStorage);
-    EXPECT_EQ(answers(*journal), kept);
+    EXPECT_EQ(answers(journal->snapshot()), kept);
     EXPECT_EQ(journal->logged_frames(), 2 * durable);
     EXPECT_EQ(committed(), 2 * durable);
     EXPECT_EQ(statistics_.commit_failures, 1u);
@@ -213,7 +207,7 @@ TEST_F(JournalTest, AFullDiskRefusesAndTheBeliefGoesBack) {
   }
   auto journal = started();  // the disk has room again
   ASSERT_TRUE(journal);
-  EXPECT_EQ(answers(*journal), kept);
+  EXPECT_EQ(answers(journal->snapshot()), kept);
   EXPECT_TRUE(apply(*journal, {frame_number(2 * durable)}).ok());
 }
 
@@ -230,9 +224,9 @@ TEST_F(JournalTest, ARollbackRefusesAllOfTheBatch) {
   EXPECT_EQ(statistics_.accepted, accepted);
   EXPECT_EQ(statistics_.refused, 1000 - accepted);
   EXPECT_EQ(committed(), static_cast<std::int64_t>(accepted));
-  const std::string kept = answers(*journal);
+  const std::string kept = answers(journal->snapshot());
   journal.reset();
-  EXPECT_EQ(answers(*make()), kept);
+  EXPECT_EQ(answers(make()->snapshot()), kept);
 }
 
 TEST_F(JournalTest, RestoresTheBeliefToTheByte) {
@@ -244,12 +238,12 @@ TEST_F(JournalTest, RestoresTheBeliefToTheByte) {
     // Of another sensor, behind the newest by less than max_lateness: put in its place.
     ASSERT_TRUE(apply(*journal, {frame_number(35, "laser")}).ok());
     EXPECT_EQ(statistics_.late, 1u);
-    before = answers(*journal);
+    before = answers(journal->snapshot());
   }
   statistics_.late = 0;
   auto journal = started();
   ASSERT_TRUE(journal);
-  EXPECT_EQ(answers(*journal), before);
+  EXPECT_EQ(answers(journal->snapshot()), before);
   EXPECT_EQ(journal->logged_frames(), 41);
   ASSERT_TRUE(apply(*journal, {frame_number(41)}).ok());
   EXPECT_EQ(statistics_.late, 0u) << "counted since the start";

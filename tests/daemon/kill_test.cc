@@ -7,9 +7,9 @@
 #include <random>
 
 #include "anchoring/world.h"
-#include "api/answers.h"
 #include "knowledge/frame_log.h"
 #include "lcmtypes/checked_decode.h"
+#include "tests/daemon/answers.h"
 #include "tests/daemon/load.h"
 
 namespace anchord {
@@ -47,12 +47,7 @@ class Replay {
   bool has(const std::pair<std::string, Utime>& frame) const { return frames_.contains(frame); }
   std::int64_t frames() const { return last_; }
   /// As belief() asks for it.
-  std::string answers() const {
-    std::string bytes;
-    for (const char* target : {"/v1/objects?min_p=0", "/v1/hypotheses", "/v1/count"})
-      bytes += answer(*parse_target(target), {world_.belief(), world_.background()}).body;
-    return bytes;
-  }
+  std::string answers() const { return anchord::answers({world_.belief(), world_.background()}); }
 
  private:
   World world_{scene()};
