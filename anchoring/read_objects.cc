@@ -135,14 +135,17 @@ Leaf leaf_at(const Leaf& leaf, Utime at, const Background& background) {
   return as_real(std::move(out), background);
 }
 
+std::vector<ObjectBelief> read_objects(const Cluster& cluster, Utime at,
+                                       const Background& background) {
+  return std::move(Objects(cluster, at, background).all());
+}
+
 std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double min_p,
                                        const Background& background) {
   std::vector<ObjectBelief> out;
-  for (const auto& cluster : belief.clusters) {
-    Objects objects(*cluster, at, background);
-    for (ObjectBelief& object : objects.all())
+  for (const auto& cluster : belief.clusters)
+    for (ObjectBelief& object : read_objects(*cluster, at, background))
       if (object.p >= min_p && object.p > 0) out.push_back(std::move(object));
-  }
   std::sort(out.begin(), out.end(), [](const ObjectBelief& a, const ObjectBelief& b) {
     return a.anchor->birth < b.anchor->birth;
   });

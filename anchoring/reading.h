@@ -86,6 +86,10 @@ Leaf leaf_at(const Leaf& leaf, Utime at, const Background& background);
 std::vector<ObjectBelief> read_objects(const Belief& belief, Utime at, double min_p,
                                        const Background& background);
 
+/// Those of one cluster, in its order.
+std::vector<ObjectBelief> read_objects(const Cluster& cluster, Utime at,
+                                       const Background& background);
+
 /// Distribution of the number of anchors that exist, fit the description and are in the place
 /// (-1: anywhere): the Poisson-binomial inside each hypothesis, mixed over hypotheses, convolved
 /// over clusters. Entries beyond the last that matters (1e-15) are left out.

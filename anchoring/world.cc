@@ -7,7 +7,9 @@
 namespace anchord {
 
 World::World(Knowledge knowledge)
-    : background_(std::make_shared<const Background>(std::move(knowledge))) {
+    : World(std::make_shared<const Background>(std::move(knowledge))) {}
+
+World::World(std::shared_ptr<const Background> background) : background_(std::move(background)) {
   Belief empty;
   for (const auto& arrivals : background_->arrivals)
     empty.undetected.emplace_back(background_->tiling, arrivals);

@@ -46,6 +46,8 @@ struct Accepted {
 class World {
  public:
   explicit World(Knowledge knowledge);
+  /// The same, of knowledge that is prepared already.
+  explicit World(std::shared_ptr<const Background> background);
 
   const std::shared_ptr<const Background>& background() const { return background_; }
 
@@ -78,6 +80,11 @@ class World {
 
   /// The belief after the frames so far.
   const std::shared_ptr<const Belief>& belief() const { return belief_; }
+
+  /// The newest belief that no late frame can change any more.
+  const std::shared_ptr<const Belief>& settled() const {
+    return recent_.empty() ? belief_ : recent_.front().before;
+  }
 
   /// utime of the newest frame of this frame's sensor, if there is one.
   std::optional<Utime> newest(const Frame& frame) const;

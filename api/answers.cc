@@ -37,7 +37,7 @@ Json undetected_json(const Snapshot& snapshot, const Parameters& asked) {
   for (int i = 0; i < static_cast<int>(background.knowledge.places.size()); ++i) {
     if (asked.place >= 0 && i != asked.place) continue;
     const double expected =
-        undetected(*snapshot.belief, snapshot.belief->utime, asked.description, i, background);
+        undetected(*snapshot.belief, snapshot.utime(), asked.description, i, background);
     if (expected >= kLeastShown)
       out.push_back({{"place", background.knowledge.places[i].name}, {"expected", expected}});
   }
@@ -46,7 +46,8 @@ Json undetected_json(const Snapshot& snapshot, const Parameters& asked) {
 
 }  // namespace
 
-HttpResponse answer(const HttpTarget& target, const Snapshot& snapshot) {
+HttpResponse answer(const HttpTarget& target, const Snapshot& snapshot,
+                    const FramesAt& frames_at) {
   constexpr std::string_view kObject = "/v1/objects/";
   const auto result = [&]() -> Result<Json> {
     if (target.path == "/v1/objects") return answer_objects(target, snapshot);
@@ -54,7 +55,7 @@ HttpResponse answer(const HttpTarget& target, const Snapshot& snapshot) {
     if (target.path == "/v1/count") return answer_count(target, snapshot);
     if (target.path == "/v1/hypotheses") return answer_hypotheses(target, snapshot);
     if (target.path.starts_with(kObject))
-      return answer_object(target.path.substr(kObject.size()), target, snapshot);
+      return answer_object(target.path.substr(kObject.size()), target, snapshot, frames_at);
     return Error{ErrorCode::kUnknown, "", "there is nothing at " + target.path};
   }();
   if (!result) return http_error(result.error());
@@ -68,7 +69,7 @@ Result<Json> answer_where(const HttpTarget& target, const Snapshot& snapshot) {
   if (asked->object.empty() && !asked->filters())
     return invalid("object", "say which: object=ID, or a description such as class=cup");
 
-  const Utime now = snapshot.belief->utime;
+  const Utime now = snapshot.utime();
   struct Candidate {
     ObjectBelief object;
     double match;
@@ -112,7 +113,7 @@ Result<Json> answer_count(const HttpTarget& target, const Snapshot& snapshot) {
   const Background& background = *snapshot.background;
   auto asked = read_parameters(target, "description place", background);
   if (!asked) return asked.error();
-  const Utime now = snapshot.belief->utime;
+  const Utime now = snapshot.utime();
   const auto distribution =
       count_distribution(*snapshot.belief, now, asked->description, asked->place, background);
   double expected = 0;

@@ -69,6 +69,7 @@ Result<Json> answer_hypotheses(const HttpTarget& target, const Snapshot& snapsho
   auto asked = read_parameters(target, "limit", background);
   if (!asked) return asked.error();
   const Belief& belief = *snapshot.belief;
+  const Utime at = snapshot.utime();
   std::size_t hypotheses = 0;
   for (const auto& cluster : belief.clusters) hypotheses += cluster->hypotheses.size();
 
@@ -77,7 +78,7 @@ Result<Json> answer_hypotheses(const HttpTarget& target, const Snapshot& snapsho
     Json entry{{"p", std::exp(world.log_weight)}};
     if (worlds.empty()) {
       entry["objects"] = Json::array();
-      for (const auto& object : read_objects(belief, belief.utime, 0, background)) {
+      for (const auto& object : read_objects(belief, at, 0, background)) {
         if (!object.in_best) continue;
         const Leaf& leaf = object.versions[object.best].leaf;
         entry["objects"].push_back(
@@ -93,8 +94,8 @@ Result<Json> answer_hypotheses(const HttpTarget& target, const Snapshot& snapsho
       const Cluster& cluster = *belief.clusters[c];
       for (std::size_t a = 0; a < cluster.anchors.size(); ++a) {
         Json d =
-            difference(*cluster.anchors[a].anchor, leaf_in(cluster, 0, a, belief.utime, background),
-                       leaf_in(cluster, world.leaf[c], a, belief.utime, background), background);
+            difference(*cluster.anchors[a].anchor, leaf_in(cluster, 0, a, at, background),
+                       leaf_in(cluster, world.leaf[c], a, at, background), background);
         if (!d.is_null()) entry["differs"].push_back(std::move(d));
       }
     }
@@ -110,7 +111,7 @@ Result<Json> answer_hypotheses(const HttpTarget& target, const Snapshot& snapsho
   if (worlds.size() > 1)
     std::stable_sort(worlds.begin() + 1, worlds.end(),
                      [](const Json& a, const Json& b) { return a["p"] > b["p"]; });
-  return Json{{"utime", belief.utime},
+  return Json{{"utime", at},
               {"clusters", belief.clusters.size()},
               {"hypotheses", hypotheses},
               {"worlds", std::move(worlds)}};

@@ -73,7 +73,7 @@ Result<Json> answer_objects(const HttpTarget& target, const Snapshot& snapshot) 
   auto asked = read_parameters(target, "description place min_p", background);
   if (!asked) return asked.error();
   std::vector<ObjectBelief> matching;
-  for (auto& object : read_objects(*snapshot.belief, snapshot.belief->utime,
+  for (auto& object : read_objects(*snapshot.belief, snapshot.utime(),
                                    asked->min_p.value_or(kLeastShown), background)) {
     if (match(object, asked->description, background) < 0.5) continue;
     if (asked->place >= 0 && object.in_place(asked->place, background) < 0.5) continue;
@@ -83,19 +83,20 @@ Result<Json> answer_objects(const HttpTarget& target, const Snapshot& snapshot) 
                    [](const auto& a, const auto& b) { return a.p > b.p; });
   Json objects = Json::array();
   for (const auto& object : matching) objects.push_back(object_json(object, background));
-  return Json{{"utime", snapshot.belief->utime}, {"objects", std::move(objects)}};
+  return Json{{"utime", snapshot.utime()}, {"objects", std::move(objects)}};
 }
 
 Result<Json> answer_object(const std::string& id, const HttpTarget& target,
-                           const Snapshot& snapshot) {
+                           const Snapshot& snapshot, const FramesAt& frames_at) {
   const Background& background = *snapshot.background;
   if (auto none = read_parameters(target, "", background); !none) return none.error();
-  for (const auto& object : read_objects(*snapshot.belief, snapshot.belief->utime, 0, background)) {
+  for (const auto& object : read_objects(*snapshot.belief, snapshot.utime(), 0, background)) {
     if (!object.anchor->is_called(id)) continue;
-    Json out{{"utime", snapshot.belief->utime}};
+    Json out{{"utime", snapshot.utime()}};
     out.update(object_json(object, background));
     out["models"] = model_list(object.shown(), background);
     out["alternatives"] = alternatives_json(object, background);
+    if (frames_at) out["seen"] = sighting_json(object, frames_at, background);
     return out;
   }
   return Error{ErrorCode::kUnknown, "object", "there is no object \"" + id + "\""};

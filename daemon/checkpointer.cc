@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "anchoring/checkpoint.h"
-#include "daemon/logged.h"
 
 namespace anchord {
 namespace {
@@ -16,89 +15,118 @@ namespace {
 /// Of the time that frames take, as much may go into checkpoints.
 constexpr double kShare = 0.1;
 
-/// The frame or event of that number, or nothing.
-std::optional<LoggedFrame> at(FrameLog& log, std::int64_t sequence) {
-  std::optional<LoggedFrame> found;
-  if (sequence < 1 || sequence > log.last_sequence()) return found;
-  const Status read = log.for_each(sequence, [&](const LoggedFrame& logged) {
-    found = logged;
-    return false;
-  });
-  return read ? found : std::nullopt;
-}
-
-Status resume_at(World& world, FrameLog& log, const StoredCheckpoint& checkpoint) {
-  const auto last = at(log, checkpoint.sequence);
-  if (!last || checksum(*last) != checkpoint.frame_checksum)
-    return invalid("", "belongs to another log");
-  auto state = read_checkpoint(checkpoint.bytes, world);
-  if (!state) return state.error();
-  if (state->taken != checkpoint.sequence) return invalid("", "counts otherwise than the log");
-  std::vector<Accepted> recent;
-  for (const WorldState::Step& step : state->recent) {
-    const auto logged = at(log, step.number);
-    if (!logged) return invalid("", "needs a frame that cannot be read");
-    auto accepted = read_logged(*logged);
-    if (!accepted) return accepted.error();
-    recent.push_back(*std::move(accepted));
-  }
-  return world.resume(*std::move(state), recent);
+/// The latest time of what is in it.
+Utime time_of(const WorldState& state, const Belief& before) {
+  return state.recent.empty() ? before.utime
+                              : std::max(before.utime, state.recent.back().utime);
 }
 
 }  // namespace
 
-Checkpointer::Checkpointer(const std::string& directory,
-                           std::shared_ptr<const Background> background, double interval)
-    : background_(std::move(background)), interval_(interval), worker_(1) {
+Checkpointer::Checkpointer(const std::string& directory, World now, double interval)
+    : directory_(directory), now_(std::move(now)), interval_(interval), worker_(4) {
   auto store = CheckpointStore::open(directory);
-  if (store)
-    store_ = std::make_unique<CheckpointStore>(*std::move(store));
-  else
+  if (!store) {
     spdlog::warn("checkpoints cannot be kept, a start will fold the whole log: {}",
                  store.error().text());
+    return;
+  }
+  store_ = std::make_unique<CheckpointStore>(*std::move(store));
+  if (const auto bytes = store_->bytes()) bytes_ = *bytes;
+  if (const auto past = store_->newest_past()) last_past_ = *past;
 }
 
-std::int64_t Checkpointer::resume(World& world, FrameLog& log) {
-  if (!store_) return 0;
+std::optional<Refold> Checkpointer::resume(LogReader& log, Configurations& configurations) {
+  if (!store_) return {};
   std::int64_t before = std::numeric_limits<std::int64_t>::max();
   for (;;) {
-    const auto checkpoint = store_->newest(background_->knowledge.fingerprint, before);
+    const auto checkpoint = store_->newest(before);
     if (!checkpoint) {
       spdlog::warn("checkpoints cannot be read: {}", checkpoint.error().text());
-      return 0;
+      return {};
     }
-    if (!*checkpoint) return 0;
-    const Status resumed = resume_at(world, log, **checkpoint);
-    if (resumed) return newest_ = (*checkpoint)->sequence;
+    if (!*checkpoint) return {};
+    auto resumed = Refold::from(**checkpoint, log, configurations);
     before = (*checkpoint)->sequence;
+    if (resumed) {
+      newest_ = before;
+      return *std::move(resumed);
+    }
     spdlog::warn("the checkpoint at frame {} is left out: {}", before, resumed.error().text());
   }
 }
 
+void Checkpointer::worked(double seconds) {
+  since_ += seconds;
+  work_ += seconds;
+  ++count_;
+}
+
 bool Checkpointer::due() const {
-  return store_ && !writing_ && (interval_ <= 0 || since_ >= std::max(interval_, took_ / kShare));
+  if (!store_ || writing_) return false;
+  return demanded_ || interval_ <= 0 || since_ >= std::max(interval_, took_ / kShare);
 }
 
 void Checkpointer::take(const World& durable, std::int64_t sequence, std::uint32_t frame_checksum) {
   if (!due() || writing_.exchange(true)) return;
   since_ = 0;
+  demanded_ = false;
   // Runs when the task has gone, whether or not it was done.
   const std::shared_ptr<void> end(nullptr, [this](void*) { writing_ = false; });
-  worker_.post([this, end, state = durable.state(), sequence, frame_checksum] {
-    write(state, sequence, frame_checksum);
+  const double seconds_per_frame = count_ > 0 ? work_ / static_cast<double>(count_) : 0;
+  Taken taken{durable.state(), durable.background(), sequence, frame_checksum, seconds_per_frame};
+  worker_.post([this, end, taken = std::move(taken)] { write(taken); });
+}
+
+void Checkpointer::write(const Taken& taken) {
+  const auto begin = std::chrono::steady_clock::now();
+  const double since_past =
+      static_cast<double>(taken.sequence - last_past_) * taken.seconds_per_frame;
+  const bool past = last_past_ > taken.sequence || since_past >= kPastWork;
+  const Status kept = store_->put({taken.sequence, taken.frame_checksum,
+                                   taken.background->knowledge.fingerprint,
+                                   write_checkpoint(taken.state, *taken.background),
+                                   time_of(taken.state, *taken.state.before)},
+                                  past);
+  took_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!kept) return spdlog::warn("a checkpoint cannot be kept: {}", kept.error().text());
+  newest_ = taken.sequence;
+  if (past) last_past_ = taken.sequence;
+  if (const auto bytes = store_->bytes()) bytes_ = *bytes;
+}
+
+void Checkpointer::look_for_base(Utime until, std::int64_t sequence) {
+  if (!store_) return;
+  worker_.post([this, until, sequence] {
+    auto found = sequence > 0 ? store_->oldest_from(sequence)
+                              : store_->newest_until(until, std::numeric_limits<std::int64_t>::max());
+    if (!found || !*found) return;
+    auto log = LogReader::open(directory_);
+    if (!log) return;
+    auto configurations = Configurations::of(*log, now_);
+    if (!configurations) return;
+    const auto fold = Refold::from(**found, *log, *configurations);
+    if (!fold) return;
+    LogBase base{**std::move(found), fold->from_sequence() + 1};
+    for (const WorldState::Step& step : fold->world().state().recent)
+      base.first_kept = std::min(base.first_kept, step.number);
+    const std::lock_guard lock(mutex_);
+    base_ = std::move(base);
   });
 }
 
-void Checkpointer::write(const WorldState& state, std::int64_t sequence,
-                         std::uint32_t frame_checksum) {
-  const auto begin = std::chrono::steady_clock::now();
-  const Status kept = store_->put({sequence, frame_checksum, background_->knowledge.fingerprint,
-                                   write_checkpoint(state, *background_)});
-  took_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (kept)
-    newest_ = sequence;
-  else
-    spdlog::warn("a checkpoint cannot be kept: {}", kept.error().text());
+std::optional<LogBase> Checkpointer::base() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(base_, {});
+}
+
+void Checkpointer::forget_before(std::int64_t sequence) {
+  if (!store_) return;
+  worker_.post([this, sequence] {
+    if (Status forgotten = store_->forget_before(sequence); !forgotten)
+      spdlog::warn("old checkpoints cannot be dropped: {}", forgotten.error().text());
+    if (const auto bytes = store_->bytes()) bytes_ = *bytes;
+  });
 }
 
 }  // namespace anchord

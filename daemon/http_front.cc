@@ -3,6 +3,7 @@
 #include <string_view>
 #include <utility>
 
+#include "api/at_parameter.h"
 #include "api/frame_json.h"
 #include "daemon/openapi.h"
 #include "daemon/verification_routes.h"
@@ -115,13 +116,17 @@ bool change(const HttpRequest& request, const HttpReply& reply, const HttpBacken
 
 }  // namespace
 
-HttpResponse answer_get(const HttpTarget& target, const HttpBackend& backend) {
-  if (target.path == "/v1/status") return backend.self.status();
-  if (target.path == "/metrics") return backend.self.metrics();
-  if (target.path == "/v1/openapi.json") return {200, "application/json", kOpenApi, {}};
-  if (!backend.ready) return not_ready();
-  if (is_verification(target.path)) return verification_answer(target, backend.verifications);
-  return answer(target, backend.journal.snapshot());
+void answer_get(HttpTarget target, const HttpBackend& backend, const HttpReply& reply) {
+  if (target.path == "/v1/status") return reply(backend.self.status());
+  if (target.path == "/metrics") return reply(backend.self.metrics());
+  if (target.path == "/v1/openapi.json") return reply({200, "application/json", kOpenApi, {}});
+  if (!backend.ready) return reply(not_ready());
+  if (is_verification(target.path))
+    return reply(verification_answer(target, backend.verifications));
+  const auto at = take_at(target, Journal::clock_time());
+  if (!at) return reply(http_error(at.error()));
+  if (Archive::concerns(target, *at)) return backend.archive.answer(target, *at, reply);
+  reply(answer(target, backend.journal.snapshot()));
 }
 
 HttpHandler http_routes(HttpBackend backend) {
@@ -130,7 +135,7 @@ HttpHandler http_routes(HttpBackend backend) {
     if (request.method != "GET")
       return reply(method_not_allowed("questions are asked with GET", "GET, HEAD, OPTIONS"));
     ++backend.statistics.queries;
-    reply(answer_get(request.target, backend));
+    answer_get(request.target, backend, reply);
   };
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "api/http_server.h"
+#include "daemon/archive.h"
 #include "daemon/journal.h"
 #include "daemon/robots.h"
 #include "daemon/statistics.h"
@@ -25,6 +26,7 @@ inline constexpr char kHttpOrigin[] = "HTTP";
 /// What requests are handed to.
 struct HttpBackend {
   Journal& journal;
+  Archive& archive;
   Verifications& verifications;
   Robots& robots;
   const std::atomic<bool>& ready;  ///< until then what needs the belief gets 503
@@ -37,7 +39,8 @@ struct HttpBackend {
 /// questions to a snapshot, status, metrics and the API's description.
 HttpHandler http_routes(HttpBackend backend);
 
-/// Answers a GET of the belief or of the daemon itself; for HTTP and LCM alike.
-HttpResponse answer_get(const HttpTarget& target, const HttpBackend& backend);
+/// Answers a GET of the belief, of what it was, or of the daemon itself; for HTTP and LCM alike.
+/// What needs the log is answered from another thread.
+void answer_get(HttpTarget target, const HttpBackend& backend, const HttpReply& reply);
 
 }  // namespace anchord

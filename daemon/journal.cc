@@ -26,6 +26,8 @@ Journal::Journal(World world, std::unique_ptr<FrameLog> log, Statistics& statist
       pace_(background_->knowledge.limits.frame_budget),
       hooks_(std::move(hooks)),
       checkpointer_(std::move(checkpointer)),
+      recorder_(background_->knowledge.log.history_grain),
+      retention_(background_->knowledge.log),
       published_(world_.belief()) {}
 
 Journal::~Journal() {
@@ -38,54 +40,10 @@ Journal::~Journal() {
   if (thread_.joinable()) thread_.join();
 }
 
-Status Journal::restore(const std::atomic<bool>& cancelled) {
-  Status folded = Done{};
-  if (checkpointer_) resumed_ = checkpointer_->resume(world_, *log_);
-  Status read = log_->for_each(resumed_ + 1, [&](const LoggedFrame& logged) {
-    const auto accepted = read_logged(logged);
-    const auto begin = Clock::now();
-    folded = accepted ? apply(world_, *accepted) : Status(accepted.error());
-    if (folded && hooks_.alive) hooks_.alive();
-    if (folded) count_work(begin);
-    if (folded && checkpointer_ && checkpointer_->due())  // should this start be killed, too
-      checkpointer_->take(world_, logged.sequence, checksum(logged));
-    if (!folded)
-      folded = Error{folded.error().code, folded.error().field,
-                     folded.error().message + " (frame " + std::to_string(logged.sequence) +
-                         " of the log does not fit this configuration: mend the configuration, "
-                         "or start with another --data)"};
-    return folded.ok() && !cancelled;
-  });
-  if (!read) return read;
-  if (!folded || cancelled) return folded;
-  sequence_ = durable_sequence_ = log_->last_sequence();
-  restored_late_ = world_.late_frames();
-  durable_ = world_;
-  published_ = world_.belief();
-  warn_of_the_future();
-  return Done{};
-}
-
 /// What folding since then would take at a start, about.
 void Journal::count_work(Clock::time_point begin) {
   if (checkpointer_)
     checkpointer_->worked(std::chrono::duration<double>(Clock::now() - begin).count());
-}
-
-Result<std::vector<Task>> Journal::tasks() {
-  std::vector<Task> out;
-  const Status read =
-      log_->for_each_task([&](std::int64_t id, std::span<const std::uint8_t> bytes) {
-        auto message = decode_task(bytes);
-        if (message)
-          out.push_back(std::move(message->task));
-        else  // the belief does not hang on it
-          spdlog::warn("task {} of the log cannot be read and is left out: {}", id,
-                       message.error().text());
-        return true;
-      });
-  if (!read) return read.error();
-  return out;
 }
 
 void Journal::start() {
@@ -290,6 +248,8 @@ Result<bool> Journal::repeated(const LoggedFrame& frame, const std::vector<Folde
 Status Journal::append(const std::vector<Folded>& folded, const std::vector<Task>& tasks) {
   if (folded.empty() && tasks.empty()) return Done{};
   if (!std::exchange(batch_open_, true)) batch_began_ = Clock::now();
+  if (!folded.empty())
+    if (Status kept = keep_configuration(); !kept) return kept;
   for (const Folded& one : folded) {
     LoggedFrame frame = one.frame;
     frame.sequence = ++sequence_;
@@ -302,13 +262,19 @@ Status Journal::append(const std::vector<Folded>& folded, const std::vector<Task
 }
 
 void Journal::commit() {
+  if (Status kept = keep_past(); !kept) return roll_back(kept.error());
   if (Status done = log_->commit(); !done) return roll_back(done.error());
   if (std::exchange(failing_, false)) spdlog::info("frames are durable again");
   batch_open_ = awaited_ = false;
   durable_ = world_;
-  if (checkpointer_ && durable_sequence_ != sequence_ && checkpointer_->due())
-    checkpointer_->take(durable_, sequence_, log_->last_checksum());
+  durable_configured_ = configured_;
+  take_checkpoint();
   durable_sequence_ = sequence_;
+  first_ = log_->first_sequence();
+  if (const auto size = log_->size()) {
+    used_ = size->used;
+    free_ = size->free;
+  }
   ++statistics_.commits;
   statistics_.late = world_.late_frames() - restored_late_;
   for (Pending& pending : std::exchange(pending_, {})) {
@@ -318,11 +284,25 @@ void Journal::commit() {
   }
 }
 
+void Journal::take_checkpoint() {
+  if (!checkpointer_ || durable_sequence_ == sequence_ || !checkpointer_->due()) return;
+  const auto begin = Clock::now();
+  checkpointer_->take(durable_, sequence_, log_->last_checksum());
+  const double pause = std::chrono::duration<double>(Clock::now() - begin).count();
+  longest_pause_ = std::max(longest_pause_.load(), pause);
+}
+
+Journal::Kept Journal::kept() const {
+  return {first_, used_, free_, checkpointer_ ? checkpointer_->bytes() : 0, longest_pause_};
+}
+
 /// The batch cannot be kept: the belief goes back to the last one that is durable.
 void Journal::roll_back(const Error& why) {
   if (!std::exchange(failing_, true))
     spdlog::error("frames cannot be made durable and are refused: {}", why.text());
   log_->rollback();
+  recorder_.forget();
+  configured_ = durable_configured_;
   ++statistics_.commit_failures;
   batch_open_ = awaited_ = false;
   world_ = durable_;

@@ -17,8 +17,10 @@
 #include "core/frame.h"
 #include "core/verification.h"
 #include "daemon/checkpointer.h"
+#include "daemon/history_recorder.h"
 #include "daemon/intake.h"
 #include "daemon/pace.h"
+#include "daemon/retention.h"
 #include "daemon/statistics.h"
 #include "knowledge/frame_log.h"
 
@@ -83,8 +85,10 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// Folds the log, from the newest checkpoint on; to be called once, before start(). Stops when
-  /// `cancelled` turns true. Fails if a logged frame cannot be read under this configuration.
+  /// Folds the log, from the newest checkpoint on, each frame under the configuration that was in
+  /// force then, and goes on from there under the one that runs now; to be called once, before
+  /// start(). Stops when `cancelled` turns true. kConflict: the configuration has taken away what
+  /// is in use, which the field names.
   Status restore(const std::atomic<bool>& cancelled);
   /// The tasks that the log keeps; after restore(), before start().
   Result<std::vector<Task>> tasks();
@@ -103,6 +107,14 @@ class Journal {
   std::int64_t resumed_frames() const { return resumed_; }
   /// How many of them the newest checkpoint holds; 0 without one. Safe from any thread.
   std::int64_t checkpoint() const { return checkpointer_ ? checkpointer_->newest() : 0; }
+  /// What the log takes on the disk. Safe from any thread.
+  struct Kept {
+    std::int64_t first = 1;              ///< the oldest frame or event that it holds
+    std::int64_t used = 0, free = 0;     ///< bytes of the database
+    std::int64_t checkpoints = 0;        ///< bytes
+    double longest_pause = 0;  ///< s for which a checkpoint has held up frames, at most
+  };
+  Kept kept() const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -126,7 +138,10 @@ class Journal {
   Status fold(const Event& event, std::vector<Folded>& folded, Receipt& receipt);
   Result<bool> repeated(const LoggedFrame& frame, const std::vector<Folded>& folded);
   Status append(const std::vector<Folded>& folded, const std::vector<Task>& tasks);
+  Status keep_configuration();
+  Status keep_past();
   void count_work(Clock::time_point begin);
+  void take_checkpoint();
   void commit();
   void roll_back(const Error& why);
   void refuse(Submission& submission, const Frame* frame, const Error& why);
@@ -150,8 +165,14 @@ class Journal {
   bool awaited_ = false;  ///< somebody waits for the open batch
   bool failing_ = false;  ///< the last batch could not be made durable
   bool warned_ = false;   ///< that the newest frame is ahead of the clock
+  /// Whether the log says under which configuration its next frame comes; as of the last commit.
+  bool configured_ = false, durable_configured_ = false;
+  HistoryRecorder recorder_;
+  Retention retention_;
 
   std::atomic<std::shared_ptr<const Belief>> published_;
+  std::atomic<std::int64_t> first_{1}, used_{0}, free_{0};
+  std::atomic<double> longest_pause_{0};
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;

@@ -4,6 +4,7 @@
 #include <systemd/sd-daemon.h>
 
 #include <chrono>
+#include <future>
 
 namespace anchord {
 namespace {
@@ -51,10 +52,12 @@ Service::Service(Knowledge knowledge, const ServiceOptions& options, std::unique
     // While a long history is restored the start may take as long as it goes on.
     sd_notify(0, ready_ ? "WATCHDOG=1" : "WATCHDOG=1\nEXTEND_TIMEOUT_USEC=60000000");
   };
-  auto checkpointer = std::make_unique<Checkpointer>(options.data_directory, world.background(),
-                                                     options.checkpoint_interval);
+  const World now = world;
+  auto checkpointer =
+      std::make_unique<Checkpointer>(options.data_directory, now, options.checkpoint_interval);
   journal_ = std::make_unique<Journal>(std::move(world), std::move(log), statistics_, times_,
                                        std::move(hooks), std::move(checkpointer));
+  archive_ = std::make_unique<Archive>(*journal_, options.data_directory, now);
   verifications_ = std::make_unique<Verifications>(
       *journal_, robots_, [this](const Task& task, Utime now) { lcm_->publish_task(task, now); });
 }
@@ -70,7 +73,9 @@ Status Service::start(const std::atomic<bool>& cancelled) {
                  journal_->logged_frames(), journal_->resumed_frames(), seconds() - begin);
   if (Status taken_up = verifications_->restore(); !taken_up) return taken_up;
   const auto answerer = [backend = backend()](const HttpTarget& target) {
-    return answer_get(target, backend);
+    std::promise<HttpResponse> answered;
+    answer_get(target, backend, [&](HttpResponse response) { answered.set_value(response); });
+    return answered.get_future().get();
   };
   lcm_->start(*journal_, *verifications_, robots_, answerer);
   journal_->start();
@@ -90,6 +95,7 @@ void Service::stop() {
   listening_ = nullptr;
   http_.reset();
   verifications_->stop();
+  archive_->stop();
   journal_.reset();  // applies and commits what waits
   lcm_.reset();      // after it has published what came of that
 }
@@ -97,6 +103,7 @@ void Service::stop() {
 HttpBackend Service::backend() {
   return {
       *journal_,
+      *archive_,
       *verifications_,
       robots_,
       ready_,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/result.h"
+#include "daemon/archive.h"
 #include "daemon/http_front.h"
 #include "daemon/journal.h"
 #include "daemon/lcm_front.h"
@@ -56,6 +57,7 @@ class Service {
   std::unique_ptr<LcmFront> lcm_;
   Robots robots_;
   std::unique_ptr<Journal> journal_;
+  std::unique_ptr<Archive> archive_;
   std::unique_ptr<Verifications> verifications_;
   std::unique_ptr<HttpServer> http_;
   std::atomic<HttpServer*> listening_{nullptr};  ///< http_, for those whom it serves

@@ -82,10 +82,16 @@ HttpResponse status_answer(const StatusSources& from) {
                   {"overloaded", waiting.overloaded},
                   {"overloaded_s", waiting.overloaded_s}};
   out["update_us"] = {{"median", times.median_us}, {"p99", times.p99_us}, {"max", times.max_us}};
+  const Journal::Kept kept = from.journal.kept();
   out["log"] = {{"directory", from.data_directory},
                 {"frames", from.journal.logged_frames()},
+                {"first", kept.first},
                 {"checkpoint", from.journal.checkpoint()},
                 {"bytes", bytes_in(from.data_directory)},
+                {"used_bytes", kept.used},
+                {"free_bytes", kept.free},
+                {"checkpoint_bytes", kept.checkpoints},
+                {"checkpoint_pause_ms", kept.longest_pause * 1e3},
                 {"commits", s.commits.load()},
                 {"failures", s.commit_failures.load()}};
   out["lcm"] = {{"url", from.lcm_url},
@@ -148,6 +154,14 @@ HttpResponse metrics_answer(const StatusSources& from) {
           from.lcm.dropped_by_kernel.load());
   out.add("log_commits_total", "counter", "batches made durable", s.commits.load());
   out.add("log_failures_total", "counter", "batches that failed", s.commit_failures.load());
+  const Journal::Kept kept = from.journal.kept();
+  out.add("log_first_frame", "gauge", "number of the oldest frame in the log", kept.first);
+  out.add("log_bytes", "gauge", "bytes of the data directory", bytes_in(from.data_directory));
+  out.add("log_used_bytes", "gauge", "bytes of the log's database in use", kept.used);
+  out.add("log_free_bytes", "gauge", "bytes of the log's database to be used again", kept.free);
+  out.add("checkpoint_bytes", "gauge", "bytes of all checkpoints", kept.checkpoints);
+  out.add("checkpoint_pause_seconds", "gauge", "longest for which a checkpoint held up frames",
+          kept.longest_pause);
   out.add("queries_total", "counter", "questions asked", s.queries.load());
   out.add("update_seconds_sum", "counter", "time spent on updates", times.sum_s);
   out.add("update_seconds_count", "counter", "updates", times.count);

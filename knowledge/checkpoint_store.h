@@ -3,40 +3,51 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/result.h"
 #include "knowledge/sqlite.h"
+#include "knowledge/stored_checkpoint.h"
 
 namespace anchord {
 
-/// A belief after some of the log, as bytes: what a start goes on from instead of folding it all.
-struct StoredCheckpoint {
-  std::int64_t sequence = 0;         ///< of the last frame or event that is in it
-  std::uint32_t frame_checksum = 0;  ///< checksum() of that: the same log goes on from here
-  std::uint64_t configuration = 0;   ///< Knowledge::fingerprint
-  std::vector<std::uint8_t> bytes;
-};
-
-/// The newest checkpoints, in a database of their own beside the log (`anchord.db-checkpoints`):
-/// they are written by another thread than frames are, and hold nothing that the log does not. A
-/// file that is damaged, or of another format, is made anew. One thread at a time.
+/// Checkpoints in a database of their own beside the log (`anchord.db-checkpoints`): they are
+/// written by another thread than frames are, and hold nothing that the log does not. The newest
+/// ones, for a start; and some of the past, for questions about it. A file that is damaged, or of a
+/// newer version, is made anew. One thread at a time; several stores of one directory may be open.
 class CheckpointStore {
  public:
-  /// How many are kept: should one be damaged, another is there.
-  static constexpr std::int64_t kKept = 2;
+  /// How many of the newest are there: should one be damaged, another is.
+  static constexpr std::int64_t kNewest = 2;
+  /// Bytes of those of the past; of more, every second one of the older half goes.
+  static constexpr std::int64_t kPastBytes = std::int64_t{256} << 20;
 
   static Result<CheckpointStore> open(const std::string& directory);
 
-  /// Keeps a checkpoint, durably, and forgets all but the newest ones.
-  Status put(const StoredCheckpoint& checkpoint);
+  /// Adds a checkpoint, durably, and forgets those that are neither among the newest nor of the
+  /// past; `past`: it is one that stays.
+  Status put(const StoredCheckpoint& checkpoint, bool past = false);
 
-  /// The newest of that configuration whose sequence is below `before`, if its bytes are as they
-  /// were written; nothing if there is none.
-  Result<std::optional<StoredCheckpoint>> newest(std::uint64_t configuration, std::int64_t before);
+  /// The calls below pass over what is not as it was written; nothing: there is none.
+
+  /// The newest whose sequence is below `before`.
+  Result<std::optional<StoredCheckpoint>> newest(std::int64_t before);
+  /// The newest that holds nothing later than `utime`, and whose sequence is below `before`.
+  Result<std::optional<StoredCheckpoint>> newest_until(Utime utime, std::int64_t before);
+  /// The oldest whose sequence is at least `sequence`.
+  Result<std::optional<StoredCheckpoint>> oldest_from(std::int64_t sequence);
+
+  /// Forgets all with a sequence below this one's.
+  Status forget_before(std::int64_t sequence);
+  /// The sequence of the newest of the past; 0: there is none.
+  Result<std::int64_t> newest_past();
+  /// Of all that it holds.
+  Result<std::int64_t> bytes();
 
  private:
   explicit CheckpointStore(sqlite::Database database) : database_(std::move(database)) {}
+  Result<std::optional<StoredCheckpoint>> first_whole(const std::string& where, std::int64_t a,
+                                                      std::int64_t b);
+  Status thin_past();
   sqlite::Database database_;
 };
 

@@ -4,19 +4,14 @@
 
 #include <utility>
 
-#include "knowledge/commit_mark.h"
-#include "knowledge/data_directory.h"
+#include "knowledge/frame_log_store.h"
 #include "knowledge/log_schema.h"
-#include "knowledge/sqlite.h"
 
 namespace anchord {
 
 namespace {
 
-using sqlite::Database;
 using sqlite::ResetAtEnd;
-using sqlite::Statement;
-using sqlite::Transaction;
 
 /// Somebody who reads the database may hold it for a moment.
 constexpr int kBusyMs = 1000;
@@ -38,38 +33,11 @@ Error while_doing(const std::string& what, const Error& error) {
   return {error.code, error.field, "cannot " + what + ": " + error.message};
 }
 
+}  // namespace
+
 Error lost_already() {
   return {ErrorCode::kStorage, "", "the batch has failed already and must be rolled back"};
 }
-
-}  // namespace
-
-struct FrameLog::Store {
-  DirectoryLock lock;
-  Database database;
-  Statement insert, find, find_event, latest, read, put_task, drop_tasks, read_tasks;
-  std::optional<Transaction> batch;
-  bool failed;  ///< the open batch is lost
-  std::int64_t last_sequence, committed_sequence;
-  std::string directory;
-  CommitMark mark;
-  bool damaged = false;
-  std::uint32_t last_checksum = 0;
-
-  /// Takes the lock and the database when all goes well.
-  static Result<std::unique_ptr<Store>> prepare(DirectoryLock& lock, Database& database,
-                                                const std::string& directory,
-                                                std::int64_t max_bytes);
-  /// What could not be read, and that it is damage, if it is.
-  Error failed_to(const std::string& what, const Error& error);
-  /// The same of what had to be written.
-  Error not_stored(const std::string& what, const Error& error) {
-    return {ErrorCode::kStorage, "", failed_to(what, error).message};
-  }
-  Error found(const std::string& damage);
-  /// SQLite may have ended the transaction by itself; going on would lose the batch's beginning.
-  bool batch_lost() const { return failed || (batch && !database.in_transaction()); }
-};
 
 FrameLog::FrameLog(std::unique_ptr<Store> store) : store_(std::move(store)) {}
 
@@ -134,16 +102,11 @@ Result<std::unique_ptr<FrameLog::Store>> FrameLog::Store::prepare(DirectoryLock&
   if (!drop_tasks) return drop_tasks.error();
   auto read_tasks = Statement::prepare(database, "SELECT id, bytes FROM tasks ORDER BY id");
   if (!read_tasks) return read_tasks.error();
-  auto latest = Statement::prepare(
-      database, "SELECT max(utime) FROM frames WHERE robot = ?1 AND sensor = ?2 AND kind = 0");
-  if (!latest) return latest.error();
-  auto read =
-      Statement::prepare(database,
-                         "SELECT sequence, utime, robot, sensor, bytes, kind, work, checksum "
-                         "FROM frames "
-                         "WHERE sequence >= ?1 ORDER BY sequence");
-  if (!read) return read.error();
-  auto last = database.read_integer("SELECT coalesce(max(sequence), 0) FROM frames");
+  auto first = database.read_integer(
+      "SELECT coalesce((SELECT min(sequence) FROM frames), (SELECT first_kept FROM base), 1)");
+  if (!first) return first.error();
+  auto last = database.read_integer(
+      "SELECT coalesce((SELECT max(sequence) FROM frames), (SELECT first_kept - 1 FROM base), 0)");
   if (!last) return last.error();
 
   return std::unique_ptr<Store>(new Store{std::move(lock),
@@ -151,13 +114,13 @@ Result<std::unique_ptr<FrameLog::Store>> FrameLog::Store::prepare(DirectoryLock&
                                           *std::move(insert),
                                           *std::move(find),
                                           *std::move(find_event),
-                                          *std::move(latest),
-                                          *std::move(read),
                                           *std::move(put_task),
                                           *std::move(drop_tasks),
                                           *std::move(read_tasks),
                                           {},
                                           false,
+                                          *first,
+                                          *first,
                                           *last,
                                           *last,
                                           directory,
@@ -226,6 +189,7 @@ Status FrameLog::commit() {
   }
   store_->batch.reset();
   store_->committed_sequence = store_->last_sequence;
+  store_->committed_first = store_->first_sequence;
   store_->mark.write(store_->last_sequence);
   return Done{};
 }
@@ -234,6 +198,8 @@ void FrameLog::rollback() {
   store_->batch.reset();
   store_->failed = false;
   store_->last_sequence = store_->committed_sequence;
+  // What drop() dropped is there again: that is found by dropping it again.
+  store_->first_sequence = store_->committed_first;
 }
 
 std::int64_t FrameLog::last_sequence() const { return store_->last_sequence; }
@@ -296,41 +262,24 @@ Status FrameLog::for_each_task(
   }
 }
 
-Result<std::optional<Utime>> FrameLog::latest(std::string_view robot, std::string_view sensor) {
-  Statement& latest = store_->latest;
-  ResetAtEnd reset(latest);
-  auto row = latest.bind(1, robot).bind(2, sensor).step();
-  if (!row) return store_->failed_to("read the frame log", row.error());
-  std::optional<Utime> utime;
-  if (!latest.is_null(0)) utime = latest.integer(0);
-  return utime;
-}
-
 Status FrameLog::for_each(std::int64_t from_sequence,
                           const std::function<bool(const LoggedFrame&)>& callback) {
-  Statement& read = store_->read;
-  ResetAtEnd reset(read);
-  read.bind(1, from_sequence);
-  LoggedFrame frame;
-  for (std::int64_t next = from_sequence;; ++next) {
-    auto row = read.step();
-    if (!row) return store_->failed_to("read the frame log", row.error());
-    if (!*row && next > store_->last_sequence) return Done{};
-    if (!*row || read.integer(0) != next)
-      return store_->found("frame " + std::to_string(next) + " is missing");
-    frame.sequence = next;
-    frame.utime = read.integer(1);
-    frame.robot = read.text(2);
-    frame.sensor = read.text(3);
-    const auto bytes = read.bytes(4);
-    frame.bytes.assign(bytes.begin(), bytes.end());
-    frame.kind = static_cast<LoggedFrame::Kind>(read.integer(5));
-    frame.work.reset();
-    if (!read.is_null(6)) frame.work = read.integer(6);
-    if (!read.is_null(7) && read.integer(7) != checksum(frame))
-      return store_->found("frame " + std::to_string(next) + " is not as it was written");
-    if (!callback(frame)) return Done{};
-  }
+  std::int64_t next = from_sequence;
+  bool stopped = false;
+  const Status read = reader().for_each(from_sequence, [&](const LoggedFrame& frame) {
+    next = frame.sequence + 1;
+    stopped = !callback(frame);
+    return !stopped;
+  });
+  if (!read && read.error().code == ErrorCode::kConflict) return store_->found(read.error().message);
+  if (!read) return store_->failed_to("read the frame log", read.error());
+  if (!stopped && next <= store_->last_sequence)
+    return store_->found("frame " + std::to_string(next) + " is missing");
+  return Done{};
 }
+
+LogReader FrameLog::reader() { return LogReader(store_->database); }
+
+std::int64_t FrameLog::first_sequence() const { return store_->first_sequence; }
 
 }  // namespace anchord

@@ -11,6 +11,7 @@
 
 #include "core/result.h"
 #include "core/time.h"
+#include "knowledge/log_reader.h"
 #include "knowledge/logged_frame.h"
 
 namespace anchord {
@@ -28,7 +29,8 @@ namespace anchord {
 /// a log in which damage was found leaves its files as they are.
 ///
 /// Events stand in the same order among the frames. Beside them it keeps the newest record of each
-/// verification task.
+/// verification task, the configurations under which frames came in, and the history of objects.
+/// What is old may be given up for a base: the belief that it was folded into.
 ///
 /// Frames are appended in batches. A frame is durable when the commit() of its batch has returned
 /// without Error: it then survives a kill of the process and a loss of power. After an Error of
@@ -39,7 +41,7 @@ namespace anchord {
 class FrameLog {
  public:
   /// The format that this program writes; kept in the database's `user_version`.
-  static constexpr int kVersion = 4;
+  static constexpr int kVersion = 5;
 
   /// Opens the log in `directory` and creates both if missing. `max_bytes` bounds the database's
   /// size, 0: by the disk alone; at the bound appends fail as on a full disk.
@@ -66,6 +68,8 @@ class FrameLog {
 
   /// 0 while the log is empty.
   std::int64_t last_sequence() const;
+  /// The oldest that the log holds still; 1 unless drop() has dropped some.
+  std::int64_t first_sequence() const;
   /// checksum() of what was appended last; 0 before anything was.
   std::uint32_t last_checksum() const;
 
@@ -74,8 +78,6 @@ class FrameLog {
   /// Frames only.
   Result<Presence> contains(std::string_view robot, std::string_view sensor, Utime utime,
                             const std::vector<std::uint8_t>& bytes);
-  /// The latest utime of the sensor's frames; nothing if it has none.
-  Result<std::optional<Utime>> latest(std::string_view robot, std::string_view sensor);
   /// Whether the log has this event.
   Result<bool> contains_event(Utime utime, const std::vector<std::uint8_t>& bytes);
 
@@ -87,14 +89,41 @@ class FrameLog {
   Status for_each_task(
       const std::function<bool(std::int64_t id, std::span<const std::uint8_t>)>& callback);
 
-  /// Every frame and event with `sequence >= from_sequence`, from 1, in order of sequence, until
+  /// Every frame and event with `sequence >= from_sequence`, from first_sequence() on, in order of sequence, until
   /// the callback says false. The callback must not append. kIo: what follows is damaged.
   Status for_each(std::int64_t from_sequence,
                   const std::function<bool(const LoggedFrame&)>& callback);
+  /// Reads all that the log holds; the log must outlive it.
+  LogReader reader();
+
+  /// The calls below add to the open batch, or begin one.
+
+  /// Says from which frame or event on a configuration is in force.
+  Status put_configuration(const LoggedConfiguration& configuration);
+  /// Keeps a sample of an object's history, in the place of one of the same time.
+  Status put_sample(const HistorySample& sample);
+  /// Thins the history to `grain` s, from where that came to last up to `until` but over no more
+  /// than `most` rows: of each stretch of so many s the first sample stays, and those at which the
+  /// place changes. Gives how many rows went.
+  Result<std::int64_t> thin_history(double grain, Utime until, std::int64_t most);
+  /// Puts a base in the place of all before it: drop() may drop that from then on. In an empty log
+  /// it says where the log begins.
+  Status put_base(const LogBase& base);
+  /// Drops at most `most` of the oldest frames and events that the base makes dispensable. Gives
+  /// how many.
+  Result<std::int64_t> drop(std::int64_t most);
+  /// Bytes of the database that are in use, and those that are free to be used again.
+  struct Size {
+    std::int64_t used = 0, free = 0;
+  };
+  Result<Size> size();
+
+  struct Store;
 
  private:
-  struct Store;
   Status begin_batch();
+  Status write(const char* doing, const char* sql,
+               const std::function<void(sqlite::Statement&)>& bind);
   explicit FrameLog(std::unique_ptr<Store> store);
   std::unique_ptr<Store> store_;
 };

@@ -25,16 +25,47 @@ CREATE TABLE frames (
   work INTEGER,
   checksum INTEGER
 ) STRICT;
-CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime) WHERE kind = 0;
 CREATE INDEX events_by_time ON frames (utime) WHERE kind = 1;
 CREATE TABLE tasks (id INTEGER PRIMARY KEY, ended INTEGER NOT NULL, bytes BLOB NOT NULL) STRICT;
+)";
+
+/// What version 5 added: frames are also found by their time; configurations; what old frames were
+/// folded into; where objects were believed to be.
+constexpr const char* kSinceVersion5 = R"(
+CREATE UNIQUE INDEX frames_by_time ON frames (utime, robot, sensor) WHERE kind = 0;
+CREATE TABLE configurations (
+  first INTEGER PRIMARY KEY,
+  text TEXT NOT NULL,
+  checksum INTEGER NOT NULL
+) STRICT;
+CREATE TABLE base (
+  sequence INTEGER PRIMARY KEY,
+  first_kept INTEGER NOT NULL,
+  utime INTEGER NOT NULL,
+  frame_checksum INTEGER NOT NULL,
+  configuration INTEGER NOT NULL,
+  bytes BLOB NOT NULL,
+  checksum INTEGER NOT NULL
+) STRICT;
+CREATE TABLE history (
+  id INTEGER PRIMARY KEY,
+  object TEXT NOT NULL,
+  utime INTEGER NOT NULL,
+  p REAL NOT NULL,
+  place TEXT,
+  x REAL NOT NULL,
+  y REAL NOT NULL,
+  z REAL NOT NULL,
+  spread REAL NOT NULL
+) STRICT;
+CREATE UNIQUE INDEX history_by_object ON history (object, utime);
+CREATE INDEX history_by_time ON history (utime);
+CREATE TABLE thinned (grain INTEGER PRIMARY KEY, until INTEGER NOT NULL) STRICT;
 )";
 
 /// From version 1, which had frames only.
 constexpr const char* kFromVersion1 = R"(
 ALTER TABLE frames ADD COLUMN kind INTEGER NOT NULL DEFAULT 0;
-DROP INDEX frames_by_sensor;
-CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime) WHERE kind = 0;
 CREATE INDEX events_by_time ON frames (utime) WHERE kind = 1;
 CREATE TABLE tasks (id INTEGER PRIMARY KEY, ended INTEGER NOT NULL, bytes BLOB NOT NULL) STRICT;
 )";
@@ -44,6 +75,9 @@ constexpr const char* kFromVersion2 = "ALTER TABLE frames ADD COLUMN work INTEGE
 
 /// From version 3, which had no checksums; its frames go without.
 constexpr const char* kFromVersion3 = "ALTER TABLE frames ADD COLUMN checksum INTEGER;";
+
+/// Before version 5 frames were found by sensor first.
+constexpr const char* kFromVersion4 = "DROP INDEX IF EXISTS frames_by_sensor;";
 
 Error io(std::string message) { return {ErrorCode::kIo, "", std::move(message)}; }
 
@@ -79,7 +113,8 @@ Result<bool> recognise(Database& database, const std::string& path) {
 Status create_schema(Database& database) {
   auto transaction = Transaction::begin(database);
   if (!transaction) return transaction.error();
-  const std::string sql = kSchema + ("PRAGMA application_id=" + std::to_string(kApplicationId)) +
+  const std::string sql = std::string(kSchema) + kSinceVersion5 +
+                          "PRAGMA application_id=" + std::to_string(kApplicationId) +
                           ";PRAGMA user_version=" + std::to_string(kLogVersion);
   if (auto made = database.execute(sql); !made) return made;
   return transaction->commit();
@@ -93,7 +128,8 @@ Status upgrade(Database& database) {
   auto transaction = Transaction::begin(database);
   if (!transaction) return transaction.error();
   const std::string sql = (*version < 2 ? kFromVersion1 : std::string()) +
-                          (*version < 3 ? kFromVersion2 : "") + kFromVersion3 +
+                          (*version < 3 ? kFromVersion2 : "") + (*version < 4 ? kFromVersion3 : "") +
+                          kFromVersion4 + kSinceVersion5 +
                           ("PRAGMA user_version=" + std::to_string(kLogVersion));
   if (auto made = database.execute(sql); !made) return made;
   return transaction->commit();

@@ -15,6 +15,6 @@ namespace anchord {
 Status prepare_log(sqlite::Database& database, const std::string& path, std::int64_t max_bytes);
 
 /// The version that prepare_log() makes.
-inline constexpr int kLogVersion = 4;
+inline constexpr int kLogVersion = 5;
 
 }  // namespace anchord

@@ -19,10 +19,16 @@ Error failure_of(sqlite3* handle, const std::string& doing) {
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
 
 Result<Database> Database::open(const std::string& path) {
+  return open(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+}
+
+Result<Database> Database::open_reading(const std::string& path) {
+  return open(path, SQLITE_OPEN_READONLY);
+}
+
+Result<Database> Database::open(const std::string& path, int flags) {
   sqlite3* handle = nullptr;
-  const int code =
-      sqlite3_open_v2(path.c_str(), &handle,
-                      SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
+  const int code = sqlite3_open_v2(path.c_str(), &handle, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   if (handle == nullptr) return Error{ErrorCode::kIo, "", "no memory to open " + path};
   Database database(handle);
   if (code != SQLITE_OK) return database.failure("cannot open " + path);
@@ -81,6 +87,11 @@ Statement& Statement::bind(int parameter, std::int64_t value) {
   return *this;
 }
 
+Statement& Statement::bind(int parameter, double value) {
+  note(sqlite3_bind_double(handle_.get(), parameter, value));
+  return *this;
+}
+
 Statement& Statement::bind(int parameter, std::string_view text) {
   // A null pointer would bind NULL: an empty view is the empty text.
   const char* data = text.empty() ? "" : text.data();
@@ -120,6 +131,8 @@ bool Statement::is_null(int column) const {
 std::int64_t Statement::integer(int column) const {
   return sqlite3_column_int64(handle_.get(), column);
 }
+
+double Statement::real(int column) const { return sqlite3_column_double(handle_.get(), column); }
 
 std::string_view Statement::text(int column) const {
   const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), column));

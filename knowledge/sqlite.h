@@ -21,6 +21,8 @@ class Database {
  public:
   /// Opens the file for reading and writing, and creates it if it is missing.
   static Result<Database> open(const std::string& path);
+  /// Opens what is there for reading only, beside whoever writes it. It never moves a WAL's pages.
+  static Result<Database> open_reading(const std::string& path);
 
   /// Runs statements that give no rows.
   Status execute(const std::string& sql);
@@ -43,6 +45,7 @@ class Database {
     void operator()(sqlite3* handle) const;
   };
   explicit Database(sqlite3* handle) : handle_(handle) {}
+  static Result<Database> open(const std::string& path, int flags);
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
@@ -53,6 +56,7 @@ class Statement {
   static Result<Statement> prepare(const Database& database, const std::string& sql);
 
   Statement& bind(int parameter, std::int64_t value);
+  Statement& bind(int parameter, double value);
   /// What is bound is not copied: it must live until the next reset().
   Statement& bind(int parameter, std::string_view text);
   Statement& bind(int parameter, std::span<const std::uint8_t> bytes);
@@ -64,6 +68,7 @@ class Statement {
 
   bool is_null(int column) const;
   std::int64_t integer(int column) const;
+  double real(int column) const;
   /// Views of the row, until the next step() or reset().
   std::string_view text(int column) const;
   std::span<const std::uint8_t> bytes(int column) const;

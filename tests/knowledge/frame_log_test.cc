@@ -102,22 +102,6 @@ TEST_F(FrameLogTest, KeepsEmptyNamesAndEmptyBytes) {
   EXPECT_EQ(*found, FrameLog::Presence::kSame);
 }
 
-TEST_F(FrameLogTest, KnowsEachSensorsLatestTime) {
-  auto log = open();
-  auto latest = [&](const std::string& robot, const std::string& sensor) {
-    auto utime = log->latest(robot, sensor);
-    EXPECT_TRUE(utime.ok());
-    return utime.ok() ? *utime : std::nullopt;
-  };
-  EXPECT_EQ(latest("amigo", "kinect"), std::nullopt);
-  for (int n = 1; n <= 4; ++n) ASSERT_TRUE(log->append(frame_number(n)).ok());
-  EXPECT_EQ(latest("amigo", "kinect"), kStart + 4000);
-  EXPECT_EQ(latest("amigo", "laser"), kStart + 3000);
-  EXPECT_EQ(latest("sergio", "laser"), std::nullopt);
-  log->rollback();
-  EXPECT_EQ(latest("amigo", "laser"), std::nullopt);
-}
-
 TEST_F(FrameLogTest, RefusesASequenceOrATimeTwiceAndKeepsTheBatch) {
   auto log = open();
   ASSERT_TRUE(log->append(frame_number(1)).ok());

@@ -83,13 +83,35 @@ TEST_F(FrameLogTest, KeepsTheBoundOnAFramesWork) {
   EXPECT_EQ(frames[1].work, 12'345);
 }
 
+/// Takes back what version 5 added.
+const std::string kToVersion4 =
+    "DROP INDEX frames_by_time; DROP TABLE configurations; DROP TABLE base; DROP TABLE history;"
+    "DROP TABLE thinned;"
+    "CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime) WHERE kind = 0;";
+
+TEST_F(FrameLogTest, BringsVersion4UpToDate) {
+  {
+    auto log = open();
+    ASSERT_TRUE(log->append(frame_number(1)).ok());
+    ASSERT_TRUE(log->commit().ok());
+  }
+  tamper(kToVersion4 + "PRAGMA user_version=4");
+  auto log = open();
+  ASSERT_TRUE(log->append(frame_number(2)).ok());
+  EXPECT_EQ(all(*log), (std::vector<LoggedFrame>{frame_number(1), frame_number(2)}));
+  EXPECT_TRUE(log->reader().configurations()->empty());
+  LoggedFrame again = frame_number(3);
+  again.utime = frame_number(1).utime;
+  EXPECT_EQ(log->append(again).error().code, ErrorCode::kConflict);
+}
+
 TEST_F(FrameLogTest, BringsVersion3UpToDate) {
   {
     auto log = open();
     ASSERT_TRUE(log->append(frame_number(1)).ok());
     ASSERT_TRUE(log->commit().ok());
   }
-  tamper("ALTER TABLE frames DROP COLUMN checksum; PRAGMA user_version=3");
+  tamper(kToVersion4 + "ALTER TABLE frames DROP COLUMN checksum; PRAGMA user_version=3");
   auto log = open();
   ASSERT_TRUE(log->append(frame_number(2)).ok());
   EXPECT_EQ(all(*log), (std::vector<LoggedFrame>{frame_number(1), frame_number(2)}));
@@ -102,6 +124,7 @@ TEST_F(FrameLogTest, BringsVersion2UpToDate) {
     ASSERT_TRUE(log->commit().ok());
   }
   tamper(
+      kToVersion4 +
       "ALTER TABLE frames DROP COLUMN checksum; ALTER TABLE frames DROP COLUMN work;"
       "PRAGMA user_version=2");
   auto log = open();
@@ -120,6 +143,7 @@ TEST_F(FrameLogTest, BringsVersion1UpToDate) {
   }
   // As the first version made it.
   tamper(
+      kToVersion4 +
       "DROP TABLE tasks; DROP INDEX events_by_time; DROP INDEX frames_by_sensor;"
       "ALTER TABLE frames DROP COLUMN kind; ALTER TABLE frames DROP COLUMN work;"
       "ALTER TABLE frames DROP COLUMN checksum;"

@@ -23,6 +23,9 @@ std::string count_text(const Json& answer, const Style& style);
 /// The most probable world, and in what each of the others differs from it.
 std::string hypotheses_text(const Json& answer, const Style& style);
 
+/// `GET /v1/history` as a table, oldest first.
+std::string history_text(const Json& answer, const Style& style);
+
 /// `GET /v1/verifications` as a table, newest last: those that wait or are being done, and if `all`
 /// also those that have ended. `newest` is the time of the newest frame.
 std::string verify_text(const Json& answer, std::optional<Utime> newest, bool all,

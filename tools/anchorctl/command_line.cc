@@ -6,6 +6,7 @@
 
 #include "tools/anchorctl/event_options.h"
 #include "tools/anchorctl/query.h"
+#include "tools/anchorctl/read_time.h"
 #include "tools/anchorctl/verify_options.h"
 
 namespace anchord {
@@ -14,9 +15,23 @@ namespace {
 constexpr const char* kDefaultServer = "127.0.0.1:7780";
 
 constexpr const char* kWords =
-    " [KEY=VALUE]... [--KEY VALUE]...\n"
+    " [KEY=VALUE]... [--KEY VALUE]... [--at TIME]\n"
     "An object is such as cup-12, a class such as cup. What else it is like: color=blue,\n"
-    "size=small, --place kitchen. Keys and values become parameters of the question.\n";
+    "size=small, --place kitchen. Keys and values become parameters of the question.\n"
+    "--at asks what was believed then, or what is to be expected: \"yesterday 18:00\",\n"
+    "\"2026-11-22 18:00\", \"20 min ago\", now, or microseconds since 1970.\n";
+
+/// Times as people write them become numbers.
+Status read_times(Parameters& parameters) {
+  for (auto& [name, value] : parameters) {
+    if ((name != "at" && name != "from" && name != "to") || (name == "at" && value == "now"))
+      continue;
+    const auto utime = read_time("--" + name, value, clock_time());
+    if (!utime) return utime.error();
+    value = std::to_string(*utime);
+  }
+  return Done{};
+}
 
 struct Given {
   std::string server;
@@ -65,6 +80,10 @@ std::variant<Call, int> to_call(const std::string& command, const Given& given,
   if (command == "watch" && !find_parameter(*parameters, "min_p")) {
     parameters->emplace_back("min_p", "0.5");
   }
+  if (Status read = read_times(*parameters); !read) return wrong(read.error().text());
+  if (command == "history")  // of an object, also by what people call it
+    for (auto& [name, value] : *parameters)
+      if (name == "class") name = "object";
   if (command == "watch" && find_parameter(*parameters, "object")) {
     return wrong("object: watch takes a class, a place or other attributes");
   }
@@ -113,6 +132,8 @@ std::variant<Call, int> parse_command_line(int argc, const char* const* argv) {
   add_command(app, "hypotheses", "the most probable worlds, and in what they differ", "", given)
       .add_option("--limit", given.limit, "that many worlds")
       ->check(CLI::Range(1u, 1'000'000u));
+  add_command(app, "history", "where an object was believed to be; --from TIME, --to TIME", "OBJECT",
+              given);
   CLI::App& watching = add_command(app, "watch", "shows the objects as they change; Ctrl-C ends it",
                                    "[CLASS]", given);
   watching.add_option("--interval", given.interval_s, "seconds from one look to the next")

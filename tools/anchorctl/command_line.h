@@ -15,7 +15,7 @@ inline constexpr int kFailed = 1, kWrongCall = 2;
 
 /// One call of the program.
 struct Call {
-  /// where, objects, count, hypotheses, watch, status, verify, repair; event for all that tell one.
+  /// where, objects, count, hypotheses, history, watch, status, verify, repair; event for all that tell one.
   std::string command;
   ServerAddress server;
   HttpCall asked;     ///< of the daemon

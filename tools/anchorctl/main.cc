@@ -51,6 +51,7 @@ std::string written(const Call& call, const Answer& answer) {
   if (call.command == "where") return where_text(answer.json, style);
   if (call.command == "objects") return objects_text(answer.json, style);
   if (call.command == "count") return count_text(answer.json, style);
+  if (call.command == "history") return history_text(answer.json, style);
   if (call.command == "hypotheses") return hypotheses_text(answer.json, style);
   return status_text(answer.json, call.server.text(), style);
 }

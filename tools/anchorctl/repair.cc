@@ -1,13 +1,10 @@
 #include "tools/anchorctl/repair.h"
 
-#include <time.h>
-
-#include <charconv>
-#include <chrono>
 #include <utility>
 
 #include "lcmtypes/checked_decode.h"
 #include "lcmtypes/event_codec.h"
+#include "tools/anchorctl/read_time.h"
 
 namespace anchord {
 namespace {
@@ -33,28 +30,10 @@ void add_repair_command(CLI::App& app, RepairCall& call) {
                    "keep events behind what is lost, though what they name may be another thing");
 }
 
-Result<Utime> read_time(const std::string& text) {
-  using std::chrono::microseconds;
-  if (text == "now")
-    return std::chrono::duration_cast<microseconds>(
-               std::chrono::system_clock::now().time_since_epoch())
-        .count();
-  Utime utime = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), utime);
-  if (fault == std::errc() && end == text.data() + text.size()) return utime;
-  for (const char* format : {"%Y-%m-%d %H:%M:%S", "%Y-%m-%d %H:%M"}) {
-    tm time{};
-    time.tm_isdst = -1;
-    const char* rest = strptime(text.c_str(), format, &time);
-    if (rest && *rest == '\0') return static_cast<Utime>(mktime(&time)) * 1'000'000;
-  }
-  return invalid("--until", "must be now, a time such as 2026-11-22 18:00, or microseconds");
-}
-
 Result<std::string> repair(const RepairCall& call) {
   RepairOptions options{readable, {}, !call.without_events, call.all_events};
   if (!call.until.empty()) {
-    const auto until = read_time(call.until);
+    const auto until = read_time("--until", call.until, clock_time());
     if (!until) return until.error();
     options.until = *until;
   }

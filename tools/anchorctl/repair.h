@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/result.h"
-#include "core/time.h"
 #include "knowledge/log_repair.h"
 
 namespace anchord {
@@ -18,10 +17,6 @@ struct RepairCall {
 };
 
 void add_repair_command(CLI::App& app, RepairCall& call);
-
-/// A time as people write it: `now`, `2026-11-22 18:00[:05]` in the local time zone, or
-/// microseconds since 1970.
-Result<Utime> read_time(const std::string& text);
 
 /// Repairs the log in a directory, and tells what became of it.
 Result<std::string> repair(const RepairCall& call);
