@@ -39,11 +39,33 @@ void load(Archive& archive, boost::container::small_vector<T, n, A>& values) {
 
 namespace anchord {
 
-/// Changes with everything below, and with what the values hold: an older state is not read.
-constexpr std::uint32_t kFormat = 0x61630001;
+/// A checkpoint begins with kMagic plus the version of its format. Version N holds what version
+/// N - 1 did, and where a serialize() below says since(archive, N, ...) that, too: to add
+/// something, raise kVersion and say so. What an older checkpoint does not hold stays as it is made
+/// empty.
+///
+/// 1: as of 0.1.0's first beliefs. 2: a configuration may change (floor, and since when a class's
+/// undetected intensity counts).
+constexpr std::uint32_t kMagic = 0x61630000, kVersion = 2;
 
-// What the engine keeps, member by member. One function for both directions, so that they cannot
-// part. Found by argument-dependent lookup, so not in an anonymous namespace.
+/// What an archive of a checkpoint carries along.
+struct CheckpointContext {
+  const Background& background;
+  std::uint32_t version = kVersion;  ///< of the format
+};
+
+/// What the engine keeps, member by member. One function for both directions, so that they cannot
+/// part. Found by argument-dependent lookup, so not in an anonymous namespace.
+template <typename Archive>
+const CheckpointContext& context_of(Archive& archive) {
+  return cereal::get_user_data<const CheckpointContext>(archive);
+}
+
+/// Members that checkpoints hold from that version on.
+template <typename Archive, typename... Members>
+void since(Archive& archive, std::uint32_t version, Members&... members) {
+  if (context_of(archive).version >= version) archive(members...);
+}
 
 template <typename Archive>
 void serialize(Archive& archive, Kinematic& k) {
@@ -67,7 +89,7 @@ void save(Archive& archive, const ModelState& state) {
   const auto* somewhere = std::get_if<Somewhere>(&state.density);
   archive(somewhere != nullptr);
   if (!somewhere) return archive(std::get<Kinematic>(state.density)), void();
-  const auto& background = cereal::get_user_data<const Background>(archive);
+  const Background& background = context_of(archive).background;
   archive(background.place_of(*somewhere->footprint()), *somewhere);
 }
 
@@ -79,7 +101,7 @@ void load(Archive& archive, ModelState& state) {
   if (!in_place) return archive(state.density.emplace<Kinematic>()), void();
   int place = 0;
   archive(place);
-  const auto& background = cereal::get_user_data<const Background>(archive);
+  const Background& background = context_of(archive).background;
   archive(state.density.emplace<Somewhere>(background.footprint(place)));
 }
 
@@ -136,6 +158,8 @@ void serialize(Archive& archive, Belief& b) {
           b.effort, b.dropped, b.cut_frames);
   for (UndetectedIntensity& undetected : b.undetected) archive(undetected);
   for (MovingIntensity& moving : b.moving) archive(moving);
+  if (context_of(archive).version >= 2)
+    for (UndetectedIntensity& undetected : b.undetected) undetected.serialize_since(archive);
 }
 
 template <typename Archive>
@@ -146,6 +170,7 @@ void serialize(Archive& archive, WorldState::Step& step) {
 template <typename Archive>
 void serialize(Archive& archive, WorldState& state) {
   archive(state.recent, state.newest, state.late_frames, state.taken);
+  since(archive, 2, state.floor);
 }
 
 namespace {
@@ -170,8 +195,10 @@ std::string shape_of(const Background& background) {
 std::vector<std::uint8_t> write_checkpoint(const WorldState& state, const Background& background) {
   std::ostringstream out(std::ios::binary);
   {
-    cereal::UserDataAdapter<const Background, cereal::BinaryOutputArchive> archive(background, out);
-    archive(kFormat, shape_of(background), state, *state.before);
+    const CheckpointContext context{background};
+    cereal::UserDataAdapter<const CheckpointContext, cereal::BinaryOutputArchive> archive(context,
+                                                                                          out);
+    archive(kMagic + kVersion, shape_of(background), state, *state.before);
   }
   const std::string bytes = std::move(out).str();
   return {bytes.begin(), bytes.end()};
@@ -181,10 +208,15 @@ Result<WorldState> read_checkpoint(const std::vector<std::uint8_t>& bytes, const
   const Background& background = *empty.background();
   std::istringstream in(std::string(bytes.begin(), bytes.end()), std::ios::binary);
   try {
-    cereal::UserDataAdapter<const Background, cereal::BinaryInputArchive> archive(background, in);
+    CheckpointContext context{background};
+    cereal::UserDataAdapter<const CheckpointContext, cereal::BinaryInputArchive> archive(context,
+                                                                                         in);
     std::uint32_t format = 0;
     archive(format);
-    if (format != kFormat) return invalid("checkpoint", "is of another format");
+    context.version = format - kMagic;  // of what is no checkpoint, far too much
+    if (context.version == 0 || context.version > kVersion)
+      return invalid("checkpoint", context.version >> 16 ? "is of another format"
+                                                         : "is of a newer program's format");
     std::string shape;
     archive(shape);
     if (shape != shape_of(background)) return invalid("checkpoint", "is of another configuration");

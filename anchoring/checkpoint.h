@@ -11,9 +11,9 @@ namespace anchord {
 /// once. A state of the same history gives the same bytes.
 std::vector<std::uint8_t> write_checkpoint(const WorldState& state, const Background& background);
 
-/// The state that was written, to the bit, for a world of the same knowledge. kInvalid: the bytes
-/// end too early, are of another format or for other knowledge. They are trusted beyond that: keep
-/// a checksum beside them.
+/// The state that was written, to the bit, for a world of the same knowledge; also by an older
+/// program. kInvalid: the bytes end too early, are of a newer program, or for other knowledge. They
+/// are trusted beyond that: keep a checksum beside them.
 Result<WorldState> read_checkpoint(const std::vector<std::uint8_t>& bytes, const World& empty);
 
 }  // namespace anchord

@@ -150,6 +150,24 @@ void Clusters::erase(std::size_t index) {
   --size_;
 }
 
+Clusters Clusters::changed(const std::function<Pointer(const Pointer&)>& change,
+                           const Background& background) const {
+  Clusters out;
+  for (const auto& chunk : chunks_) {
+    Entries entries;
+    entries.reserve(kMost);
+    for (const Entry& entry : chunk->entries) {
+      Pointer cluster = change(entry.cluster);
+      const Reach reach = Reach::of(*cluster, background);
+      entries.push_back({std::move(cluster), reach});
+    }
+    const Reach reach = of_all(entries);
+    out.chunks_.push_back(make_pooled<const Chunk>(Chunk{std::move(entries), reach}));
+  }
+  out.size_ = size_;
+  return out;
+}
+
 void Clusters::replace(std::size_t index, Pointer cluster, const Background& background) {
   const Place at = place_of(index);
   Entries entries = chunks_[at.chunk]->entries;

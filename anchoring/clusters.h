@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <span>
@@ -96,6 +97,10 @@ class Clusters {
   void add(Pointer cluster, const Background& background);
   void erase(std::size_t index);
   void replace(std::size_t index, Pointer cluster, const Background& background);
+
+  /// The same clusters in the same order, each as `change` has it.
+  Clusters changed(const std::function<Pointer(const Pointer&)>& change,
+                   const Background& background) const;
 
   /// What it holds, for a checkpoint.
   template <typename Archive>

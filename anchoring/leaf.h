@@ -130,4 +130,17 @@ double difference(const Leaf& a, const Leaf& b, const Background& background, do
 /// Moves the densities to the models of the most probable class, if that has changed.
 void follow_class(Leaf& leaf, const Background& background);
 
+/// The models that a leaf's states are of, where they are not its class's any more.
+struct FormerModels {
+  static constexpr int kNoPlace = -2;
+  std::span<const BehaviourModel> models;  ///< places are the background's, or kNoPlace
+  /// Per state whether it is somewhere that an event has told, not in its model's place.
+  boost::container::small_vector<bool, 8> told;
+};
+
+/// Gives the leaf the models of class c: each density goes to the one of the same kind and place,
+/// else by its moments into the first tracked one (a `somewhere`: into the first `somewhere`,
+/// uniform over its place). Weights add up.
+void change_models(Leaf& leaf, const FormerModels& former, int c, const Background& background);
+
 }  // namespace anchord

@@ -52,13 +52,13 @@ void take_over(ModelState& to, const ModelState& from, const BehaviourModel& old
       to.seen = from.seen;
   } else if (from.weight > 0) {
     auto& density = std::get<Somewhere>(to.density);
-    if (!as_it_is)
+    const auto& arriving = std::get<Somewhere>(from.density);
+    if (!as_it_is || (to.weight > 0 && arriving.footprint() != density.footprint()))
       density.enter(to.weight, from.weight);  // uniform over the other place
     else if (to.weight > 0)
-      density =
-          Somewhere::merge(to.weight, density, from.weight, std::get<Somewhere>(from.density));
+      density = Somewhere::merge(to.weight, density, from.weight, arriving);
     else
-      density = std::get<Somewhere>(from.density);
+      density = arriving;
   }
   to.weight += from.weight;
 }
@@ -91,8 +91,17 @@ double difference(const Kinematic& a, const Kinematic& b, int dims, double most)
 void follow_class(Leaf& leaf, const Background& background) {
   const int top = leaf.top_class();
   if (top == leaf.model_class) return;
-  const auto& old_models = background.object_class(leaf.model_class).models;
-  const auto& models = background.object_class(top).models;
+  FormerModels former{background.object_class(leaf.model_class).models, {}};
+  for (std::size_t m = 0; m < leaf.models.size(); ++m) {
+    const auto* in = std::get_if<Somewhere>(&leaf.models[m].density);
+    former.told.push_back(in && in->footprint() != background.footprint(former.models[m].place));
+  }
+  change_models(leaf, former, top, background);
+}
+
+void change_models(Leaf& leaf, const FormerModels& former, int c, const Background& background) {
+  const auto& old_models = former.models;
+  const auto& models = background.object_class(c).models;
   const auto old = leaf.models;
   const int old_top = leaf.top_model();
   leaf.models.clear();
@@ -109,15 +118,13 @@ void follow_class(Leaf& leaf, const Background& background) {
   for (std::size_t m = 0; m < old.size(); ++m) {
     const int to = heir(old_models[m], models, taken);
     bool as_it_is = false;
-    if (!old_models[m].tracked() && !models[to].tracked()) {
-      const auto& place = std::get<Somewhere>(old[m].density).footprint();
-      as_it_is = place == std::get<Somewhere>(leaf.models[to].density).footprint() ||
-                 place != background.footprint(old_models[m].place);
-    }
+    if (!old_models[m].tracked() && !models[to].tracked())
+      as_it_is = former.told[m] || std::get<Somewhere>(old[m].density).footprint() ==
+                                       std::get<Somewhere>(leaf.models[to].density).footprint();
     if (old[m].weight > 0 || taken[to])
       take_over(leaf.models[to], old[m], old_models[m], models[to], as_it_is, background.dims);
   }
-  leaf.model_class = top;
+  leaf.model_class = c;
 }
 
 Leaf merge(double weight_a, const Leaf& a, double weight_b, const Leaf& b,

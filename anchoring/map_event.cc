@@ -33,17 +33,6 @@ Result<Gaussian> position_in_map(const Event& event, int dims) {
   return to_map(told, std::nullopt, dims);
 }
 
-/// Whether it could be the name of an anchor, now or later: `cup-12`, `new-3`.
-bool looks_like_a_name(const std::string& alias, const Knowledge& knowledge) {
-  const std::size_t dash = alias.rfind('-');
-  if (dash == std::string::npos || dash + 1 == alias.size() ||
-      alias.find_first_not_of("0123456789", dash + 1) != std::string::npos)
-    return false;
-  const std::string stem = alias.substr(0, dash);
-  return stem == "new" || std::any_of(knowledge.classes.begin(), knowledge.classes.end(),
-                                      [&](const ObjectClass& c) { return c.name == stem; });
-}
-
 /// Whether an alias can be told from a name and stands in a line.
 Status check_alias(const std::string& alias, const Knowledge& knowledge) {
   if (alias.size() > kLongestAlias) return invalid("name", "must have at most 128 bytes");
@@ -55,6 +44,16 @@ Status check_alias(const std::string& alias, const Knowledge& knowledge) {
 }
 
 }  // namespace
+
+bool looks_like_a_name(const std::string& alias, const Knowledge& knowledge) {
+  const std::size_t dash = alias.rfind('-');
+  if (dash == std::string::npos || dash + 1 == alias.size() ||
+      alias.find_first_not_of("0123456789", dash + 1) != std::string::npos)
+    return false;
+  const std::string stem = alias.substr(0, dash);
+  return stem == "new" || std::any_of(knowledge.classes.begin(), knowledge.classes.end(),
+                                      [&](const ObjectClass& c) { return c.name == stem; });
+}
 
 Result<MapEvent> place_in_map(const Event& event, const Background& background) {
   if (event.utime < kEarliestUtime || event.utime > kLatestUtime)

@@ -28,6 +28,9 @@ struct MapEvent {
 /// needs and that are missing, an alias that looks like a name which the program gives.
 Result<MapEvent> place_in_map(const Event& event, const Background& background);
 
+/// Whether an alias could be the name of an anchor, now or later: `cup-12`, `new-3`.
+bool looks_like_a_name(const std::string& alias, const Knowledge& knowledge);
+
 /// Whether the event fits the belief that it meets. kUnknown: no anchor is called so, nothing with
 /// that number can be undone; kConflict: an alias that another anchor has, an object that is joined
 /// with itself, an undo before that of a later event about the same objects.

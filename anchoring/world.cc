@@ -25,6 +25,10 @@ Result<MapFrame> World::check(const Frame& frame) const {
     return Error{ErrorCode::kConflict, "utime",
                  "is not after this sensor's last frame, " + std::to_string(*last)};
   if (Status in_time = check_lateness(frame.utime); !in_time) return in_time.error();
+  if (frame.utime < floor_)
+    return Error{
+        ErrorCode::kConflict, "utime",
+        "lies before the change of the configuration at " + std::to_string(floor_) + " us"};
   return placed;
 }
 
@@ -97,7 +101,7 @@ void World::insert(Step step) {
 }
 
 WorldState World::state() const {
-  WorldState state{belief_, {}, newest_, late_frames_, taken_};
+  WorldState state{belief_, {}, newest_, late_frames_, taken_, floor_};
   if (!recent_.empty()) state.before = recent_.front().before;
   for (const Step& step : recent_) state.recent.push_back({step.number, step.utime});
   return state;
@@ -126,6 +130,7 @@ Status World::resume(WorldState state, const std::vector<Accepted>& recent) {
   newest_ = std::move(state.newest);
   late_frames_ = state.late_frames;
   taken_ = state.taken;
+  floor_ = state.floor;
   if (!recent_.empty()) fold_from(0);
   return Done{};
 }

@@ -31,6 +31,9 @@ struct WorldState {
   std::map<std::pair<std::string, std::string>, Utime> newest;  ///< by robot and sensor
   std::uint64_t late_frames = 0;
   std::int64_t taken = 0;
+  /// When the configuration changed: what came before was believed under another one and is not
+  /// folded again. 0: it never did.
+  Utime floor = 0;
 };
 
 /// A frame or event that has been accepted once.
@@ -54,7 +57,7 @@ class World {
   /// Takes a frame. A frame that lies behind the newest one, by at most `world.max_lateness`, is
   /// put in its place: the belief is the one that folding in the order (utime, acceptance) gives.
   /// Refuses what place_in_map() does; kConflict: frames of one sensor out of time order, or one
-  /// that is too late. A refused frame changes nothing.
+  /// that is too late, or lies before the floor(). A refused frame changes nothing.
   ///
   /// `work` bounds what folding it may take (see Effort), now and whenever a late frame makes it
   /// be folded again. One that is reached leaves out the least probable hypotheses.
@@ -63,7 +66,8 @@ class World {
   /// Takes an event. It is put in its place among frames and events, as a late frame is, and takes
   /// effect at the time of the newest frame before it: the belief's utime does not move. One that
   /// is ahead of the newest frame by more than `world.max_lateness` comes from another clock, and
-  /// stands behind all that was accepted before it. Refuses what place_in_map() does, and
+  /// stands behind all that was accepted before it; one that lies before the floor() takes effect
+  /// there. Refuses what place_in_map() does, and
   /// check_against() the belief in its place; kConflict: one that is too late. A refused event
   /// changes nothing. Gives the event's number, which an undo names.
   Result<std::int64_t> apply(const Event& event);
@@ -89,6 +93,9 @@ class World {
   /// utime of the newest frame of this frame's sensor, if there is one.
   std::optional<Utime> newest(const Frame& frame) const;
 
+  /// utime of the belief when the configuration changed last, see reconfigured(); 0: it never did.
+  Utime floor() const { return floor_; }
+
   /// How many frames were put in place before a newer one.
   std::uint64_t late_frames() const { return late_frames_; }
 
@@ -113,6 +120,7 @@ class World {
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const Visibility>> visibility_;
   std::uint64_t late_frames_ = 0;
   std::int64_t taken_ = 0;  ///< frames and events
+  Utime floor_ = 0;
 };
 
 }  // namespace anchord

@@ -15,6 +15,7 @@ struct Grid {
   /// The least grid of that cell size that covers the box.
   static Grid over(const Eigen::Vector3d& min, const Eigen::Vector3d& max, double cell);
 
+  bool operator==(const Grid&) const = default;
   int size() const { return columns * rows; }
   /// The cell over or under a point, or -1 outside the grid (the height is not looked at).
   int index(const Eigen::Vector3d& point) const;

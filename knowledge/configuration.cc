@@ -17,13 +17,26 @@ std::uint64_t fingerprint_of(std::string_view text) {
   return hash;
 }
 
+/// What of a configuration touches the belief.
+nlohmann::json of_the_belief(nlohmann::json document) {
+  document.erase("maintenance");
+  document.erase("log");
+  if (const auto sensors = document.find("sensors");
+      sensors != document.end() && sensors->is_object())
+    for (nlohmann::json& sensor : *sensors)
+      if (sensor.is_object()) sensor.erase("verification");
+  return document;
+}
+
 template <typename... Source>
 Configuration configuration_of(const Source&... source) {
   ConfigurationMistakes mistakes;
   try {
     if (const auto document = load_document(source..., mistakes)) {
       Knowledge knowledge = read_knowledge(*document, mistakes);
-      knowledge.fingerprint = fingerprint_of(document->dump());
+      knowledge.text = document->dump();
+      knowledge.whole_fingerprint = fingerprint_of(knowledge.text);
+      knowledge.fingerprint = fingerprint_of(of_the_belief(*document).dump());
       if (mistakes.empty()) return knowledge;
     }
   } catch (const std::exception& error) {  // out of memory, a path that the system cannot have

@@ -93,6 +93,8 @@ class [[nodiscard]] Configuration {
 ///   `gain_norm` 5 nat, `cost_scale` the diagonal of the bounds, `speed` 0.5 m/s, `step` 1 s,
 ///   `clearance` 0.3 m, `horizon` 4, `timeout` 60 s, `enabled` false;
 ///   `actions` grab and navigate verify "object", release "none".
+/// - `log`: `keep` 0 s and `max_bytes` 0 (frames and events are kept for ever), `history_grain` 1
+/// s.
 Configuration read_configuration(const std::filesystem::path& file);
 
 /// The same from memory. Includes are relative to `directory`; if that is empty, they are mistakes

@@ -170,11 +170,26 @@ void read_limits(const JsonValue& root, Knowledge& knowledge) {
   section->read("frame_budget", limits.frame_budget, {0, 60});
 }
 
+void read_log_limits(const JsonValue& root, Knowledge& knowledge) {
+  const auto section = root.find("log");
+  if (!section || !section->object_of({"keep", "max_bytes", "history_grain"})) return;
+  constexpr Range kSpan{0, 1e10};        // s
+  constexpr Range kGrain{0, 1e6, true};  // s
+  constexpr double kMostBytes = 1e15;    // a double counts as far
+  section->read("keep", knowledge.log.keep, kSpan);
+  section->read("history_grain", knowledge.log.history_grain, kGrain);
+  if (const auto bytes = section->find("max_bytes")) {
+    const auto most = bytes->number({0, kMostBytes});
+    if (most && *most != std::floor(*most)) bytes->mistake("must be a whole number of bytes");
+    knowledge.log.max_bytes = static_cast<std::int64_t>(most.value_or(0));
+  }
+}
+
 Knowledge read_knowledge(const nlohmann::json& document, ConfigurationMistakes& mistakes) {
   Knowledge knowledge;
   const JsonValue root(document, "", mistakes);
   if (!root.object_of({"include", "world", "places", "attributes", "classes", "sensors",
-                       "hypotheses", "maintenance"})) {
+                       "hypotheses", "maintenance", "log"})) {
     return knowledge;
   }
   read_world(root, knowledge);
@@ -184,6 +199,7 @@ Knowledge read_knowledge(const nlohmann::json& document, ConfigurationMistakes& 
   read_sensors(root, knowledge);
   read_limits(root, knowledge);
   read_maintenance(root, knowledge);
+  read_log_limits(root, knowledge);
   return knowledge;
 }
 

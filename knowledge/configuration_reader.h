@@ -19,6 +19,7 @@ void read_classes(const JsonValue& root, Knowledge& knowledge);
 void read_sensors(const JsonValue& root, Knowledge& knowledge);
 void read_maintenance(const JsonValue& root, Knowledge& knowledge);
 void read_limits(const JsonValue& root, Knowledge& knowledge);
+void read_log_limits(const JsonValue& root, Knowledge& knowledge);
 
 /// A model with the parameters that hold where the configuration gives none.
 BehaviourModel default_model(BehaviourModel::Kind kind);

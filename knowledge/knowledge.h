@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,6 +42,7 @@ struct BehaviourModel {
   int growing = -1;
   bool implied = false;  ///< somewhere: not configured; a leaf has it only after an event
 
+  bool operator==(const BehaviourModel&) const = default;
   bool tracked() const { return kind != Kind::kSomewhere; }
   bool shares() const { return shared_probability > 0; }
   /// Whether an object moves in it as in the other, both tracked, whatever else is different.
@@ -55,6 +57,7 @@ const char* to_string(BehaviourModel::Kind kind);
 struct Transition {
   int from = 0, to = 0;  ///< indices of the class's models, or of an attribute's symbols
   double rate = 0;       ///< 1/s
+  bool operator==(const Transition&) const = default;
 };
 
 /// Arrivals concentrated somewhere, beside the uniform rate.
@@ -79,6 +82,7 @@ struct AttributeChange {
   double redraw = 0;  ///< categorical: 1/s at which the symbol is drawn anew, each as probable
   std::vector<Transition> transitions;  ///< categorical: between symbols, by index; or redraw
   double drift = 0;                     ///< scalar: by which the variance grows, unit^2/s
+  bool operator==(const AttributeChange&) const = default;
 };
 
 /// p_D, of what is r m from the sensor: logit p_D = logit near + per_m r.
@@ -195,9 +199,23 @@ struct Limits {
   double frame_budget = 0;           ///< s, what a frame may take; 0: no bound
 };
 
+/// How long the log keeps frames and events, see docs/operations.md. Nothing here touches the
+/// belief.
+struct LogLimits {
+  double keep = 0;             ///< s; older ones may go; 0: none does for its age
+  std::int64_t max_bytes = 0;  ///< of the log's file; 0: no bound
+  double history_grain = 1;    ///< s between what is kept of where an object was, once they went
+};
+
 struct Knowledge {
-  /// Of the configuration's text, includes merged, comments gone: of the same one, the same.
+  /// The configuration, includes merged and comments gone, with its keys in order: reading that
+  /// text gives this knowledge again. Empty where it was not read from one.
+  std::string text;
+  /// Of what of that text touches the belief: all but `maintenance`, `log` and each sensor's
+  /// `verification`. Of the same one, the same.
   std::uint64_t fingerprint = 0;
+  /// Of all of that text: what checkpoints of older programs have for a fingerprint.
+  std::uint64_t whole_fingerprint = 0;
   std::string map_frame = "map";
   int dims = 3;
   Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< z = 0 in a 2-D world
@@ -214,6 +232,7 @@ struct Knowledge {
   Sensor default_sensor;
   Limits limits;
   Maintenance maintenance;
+  LogLimits log;
 
   int find_place(std::string_view name) const;      ///< or -1
   int find_attribute(std::string_view name) const;  ///< or -1

@@ -17,6 +17,7 @@ struct Kinematic {
   Eigen::Matrix3d pv = Eigen::Matrix3d::Zero();        ///< cov(position, velocity), m^2/s
   Eigen::Matrix3d vv = Eigen::Matrix3d::Zero();        ///< covariance of velocity, (m/s)^2
 
+  bool operator==(const Kinematic&) const = default;
   Gaussian position_density() const { return {position, pp}; }
 };
 

@@ -123,14 +123,45 @@ Mixture arrived(const Source& source, double span, const MovingArrivals& arrival
 
 }  // namespace
 
-MovingIntensity::MovingIntensity(std::shared_ptr<const MovingArrivals> arrivals)
-    : arrivals_(std::move(arrivals)) {
+MovingIntensity::MovingIntensity(std::shared_ptr<const MovingArrivals> arrivals, double since)
+    : arrivals_(std::move(arrivals)), time_(since) {
   auto start = std::make_shared<std::vector<Mixture>>();
   for (const Source& source : arrivals_->sources) {
     start->emplace_back();
     if (source.at_start > 0) start->back().push_back({source.at_start, source.density});
   }
   mixtures_ = std::move(start);
+}
+
+MovingIntensity MovingIntensity::continued(std::shared_ptr<const MovingArrivals> arrivals,
+                                           double time) const {
+  MovingIntensity out(std::move(arrivals), time);
+  if (*arrivals_ == *out.arrivals_) {
+    out.time_ = time_;
+    out.mixtures_ = mixtures_;
+    return out;
+  }
+  MovingIntensity now = *this;
+  now.advance(time);
+  auto mixtures = std::make_shared<std::vector<Mixture>>(*out.mixtures_);
+  const std::size_t sources = mixtures->size();
+  for (std::size_t s = 0; s < now.mixtures_->size() && sources > 0; ++s) {
+    Mixture& into = (*mixtures)[std::min(s, sources - 1)];
+    if (s < sources) into.clear();
+    for (Component c : (*now.mixtures_)[s]) {
+      if (!out.arrivals_->constant_velocity) {
+        c.density.velocity.setZero();
+        c.density.pv.setZero();
+        c.density.vv.setZero();
+      } else if (c.density.vv.isZero(0)) {
+        c.density.vv = out.arrivals_->sources[std::min(s, sources - 1)].density.vv;
+      }
+      into.push_back(c);
+    }
+  }
+  for (Mixture& mixture : *mixtures) reduce(mixture, out.arrivals_->dims);
+  out.mixtures_ = std::move(mixtures);
+  return out;
 }
 
 void MovingIntensity::advance(double time) {

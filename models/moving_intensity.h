@@ -16,12 +16,14 @@ struct MovingArrivals {
     Kinematic density;    ///< of an object at the moment that it arrives
     double rate = 0;      ///< arrivals per s
     double at_start = 0;  ///< expected number that have just arrived as time begins
+    bool operator==(const Source&) const = default;
   };
   std::vector<Source> sources;
   bool constant_velocity = true;  ///< else a random walk
   ByAxis psd;                     ///< as predict_constant_velocity() or _position() takes it
   double departure_rate = 0;      ///< mu, 1/s
   int dims = 3;
+  bool operator==(const MovingArrivals&) const = default;
 };
 
 /// The expected number of objects of one class that arrived on the move, exist and have never been
@@ -35,13 +37,20 @@ struct MovingArrivals {
 /// the expected number nor the first two moments.
 class MovingIntensity {
  public:
-  explicit MovingIntensity(std::shared_ptr<const MovingArrivals> arrivals);
+  /// As time begins, `since` s after the start of all.
+  explicit MovingIntensity(std::shared_ptr<const MovingArrivals> arrivals, double since = 0);
 
   struct Component {
     double weight = 0;  ///< expected number
     Kinematic density;
   };
   using Mixture = std::vector<Component>;
+
+  /// The same belief with other arrivals from `time` on (not before its own). Sources are told
+  /// apart by their order: of those that are no more, the last one takes what is expected; new ones
+  /// begin. Where no source is left nothing is expected. Where nothing differs it is the same to
+  /// the bit.
+  MovingIntensity continued(std::shared_ptr<const MovingArrivals> arrivals, double time) const;
 
   /// Predicts to `time` (not before its own): motion, departures, and new arrivals.
   void advance(double time);

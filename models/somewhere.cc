@@ -178,6 +178,30 @@ Somewhere Somewhere::merge(double weight_a, const Somewhere& a, double weight_b,
   return out;
 }
 
+Somewhere Somewhere::over(std::shared_ptr<const Footprint> place) const {
+  Somewhere out(std::move(place));
+  const Footprint& now = *out.footprint_;
+  if (now.same_cells(*footprint_)) {
+    out.looked_at_ = looked_at_;
+    out.weight_looked_ = weight_looked_;
+    return out;
+  }
+  if (!looked_at_) return out;
+  auto heights = make_pooled<PoolVector<double>>(now.cells.size(), 1.0);
+  double sum = 0;
+  for (std::size_t i = 0; i < heights->size(); ++i) {
+    const int cell = footprint_->grid.index(moments_of(now.piece[i].polygon).mean);
+    if (const int old = cell < 0 ? -1 : footprint_->position_of[cell]; old >= 0)
+      (*heights)[i] = relative(static_cast<std::size_t>(old));
+    sum += now.share[i] * (*heights)[i];
+  }
+  if (sum <= 0) return out;  // all that is left of it was looked at in vain
+  for (double& height : *heights) height /= sum;
+  out.looked_at_ = std::move(heights);
+  out.weight_looked_ = 1;
+  return out;
+}
+
 Gaussian Somewhere::moments() const {
   const Footprint& f = *footprint_;
   // About the first piece: a place may be far from the origin.

@@ -32,6 +32,11 @@ struct Footprint {
   /// polygon is convex, as if the region filled each of its cells.
   std::vector<double> overlap(const Region& other) const;
 
+  /// Whether densities over one are densities over the other.
+  bool same_cells(const Footprint& other) const {
+    return region == other.region && dims == other.dims && grid == other.grid;
+  }
+
   /// Per cell the share of its column (between the region's heights) that is in view.
   std::vector<double> visible(const MapView& view) const;
 };
@@ -86,6 +91,11 @@ class Somewhere {
 
   /// The mixture of two densities over the same place; weights > 0, any sum.
   static Somewhere merge(double weight_a, const Somewhere& a, double weight_b, const Somewhere& b);
+
+  /// The same belief over a place that has changed. Where the cells are the same ones, the same
+  /// density. Else its height, relative to that of the uniform one, in the middle of what each new
+  /// cell has of the place, normalised; where the place was not before, 1, as nobody looked there.
+  Somewhere over(std::shared_ptr<const Footprint> place) const;
 
   /// Mean and covariance of the position.
   Gaussian moments() const;

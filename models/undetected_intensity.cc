@@ -36,7 +36,8 @@ int Tiling::cell(int tile, int place) const {
 
 double UndetectedIntensity::untouched(int cell, double time) const {
   const double mu = model_->departure_rate;
-  return model_->start * std::exp(-mu * time) + arrival_rate(cell) * arrived(mu, time);
+  const double dt = time - since_;
+  return model_->start * std::exp(-mu * dt) + arrival_rate(cell) * arrived(mu, dt);
 }
 
 double UndetectedIntensity::at(int cell, double time) const {
@@ -48,6 +49,36 @@ double UndetectedIntensity::at(int cell, double time) const {
          arrival_rate(cell) * arrived(mu, dt);
 }
 
+UndetectedIntensity UndetectedIntensity::continued(std::shared_ptr<const Tiling> tiling,
+                                                   std::shared_ptr<const ArrivalModel> model,
+                                                   double time) const {
+  UndetectedIntensity out(std::move(tiling), std::move(model), since_);
+  const Grid &from = tiling_->grid, &to = out.tiling_->grid;
+  if (from == to && *model_ == *out.model_) {
+    out.tiles_ = tiles_;
+    return out;
+  }
+  for (int t = 0; t < out.tiling_->tiles(); ++t) {
+    auto next = make_pooled<Tile>();
+    next->time = time;
+    next->intensity.assign(Tiling::kCells, 0.0);
+    bool touched = false;
+    const int x0 = t % out.tiling_->columns * Tiling::kEdge;
+    const int y0 = t / out.tiling_->columns * Tiling::kEdge;
+    for (int y = y0; y < std::min(y0 + Tiling::kEdge, to.rows); ++y)
+      for (int x = x0; x < std::min(x0 + Tiling::kEdge, to.columns); ++x) {
+        const int cell = y * to.columns + x;
+        const int before = from.index(0.5 * (to.corner_min(cell) + to.corner_max(cell)));
+        const bool looked_at = before >= 0 && tiles_[tiling_->tile_of(before)];
+        touched = touched || looked_at;
+        next->intensity[out.tiling_->place_in_tile(cell)] =
+            looked_at ? at(before, time) : out.untouched(cell, time);
+      }
+    if (touched) out.tiles_[t] = std::move(next);
+  }
+  return out;
+}
+
 double UndetectedIntensity::miss(const Look& look, double p, double time) {
   if (p <= 0) return 0;
   double seen_intensity = 0;
@@ -55,7 +86,7 @@ double UndetectedIntensity::miss(const Look& look, double p, double time) {
   const double mu = model_->departure_rate;
   for (const Look::Tile& seen : look.tiles) {
     const std::shared_ptr<const Tile>& old = tiles_[seen.tile];
-    const double dt = old ? time - old->time : time;
+    const double dt = time - (old ? old->time : since_);
     const double stay = std::exp(-mu * dt), rise = arrived(mu, dt);
     const int x0 = seen.tile % tiling_->columns * Tiling::kEdge;
     const int y0 = seen.tile / tiling_->columns * Tiling::kEdge;

@@ -54,6 +54,12 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"("hypotheses": {"min_symbol": 0.2})", "hypotheses.min_symbol", "[0, 0.1]"},
         Case{R"("hypotheses": {"frame_budget": -1})", "hypotheses.frame_budget", "not -1"},
         Case{R"("hypotheses": [])", "hypotheses", "must be an object"},
+        Case{R"("log": 3)", "log", "must be an object"},
+        Case{R"("log": {"keep": -1})", "log.keep", "not -1"},
+        Case{R"("log": {"max_bytes": 1.5})", "log.max_bytes", "a whole number of bytes"},
+        Case{R"("log": {"max_bytes": -1})", "log.max_bytes", "not -1"},
+        Case{R"("log": {"history_grain": 0})", "log.history_grain", "(0, "},
+        Case{R"("log": {"max_byte": 1})", "log.max_byte", "did you mean \"max_bytes\"?"},
         Case{R"("include": "home.json")", "include", "from a file only"}));
 
 INSTANTIATE_TEST_SUITE_P(
