@@ -164,7 +164,11 @@ void carry_undetected(const Belief& old, const Correspondence& of, Belief& belie
 }  // namespace
 
 Result<World> reconfigured(const World& world, Knowledge knowledge) {
-  World next(std::move(knowledge));
+  return reconfigured(world, World(std::move(knowledge)));
+}
+
+Result<World> reconfigured(const World& world, const World& empty) {
+  World next = empty;
   const Belief& old = *world.belief();
   const Correspondence correspondence(*world.background(), *next.background());
   if (Status kept = check(old, correspondence); !kept) return kept.error();

@@ -16,5 +16,7 @@ namespace anchord {
 /// most probable of some leaf; `classes.NAME`, taken away, that is the most probable of some leaf
 /// or that objects have been named after, or new where an alias looks like its names.
 Result<World> reconfigured(const World& world, Knowledge knowledge);
+/// The same; `empty` is a world of the new knowledge, whose Background the result shares.
+Result<World> reconfigured(const World& world, const World& empty);
 
 }  // namespace anchord

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <map>
 #include <memory>
@@ -71,6 +72,9 @@ class World {
   /// check_against() the belief in its place; kConflict: one that is too late. A refused event
   /// changes nothing. Gives the event's number, which an undo names.
   Result<std::int64_t> apply(const Event& event);
+
+  /// What is taken next has this number, where some before it were left out; numbers only rise.
+  void count_from(std::int64_t number) { taken_ = std::max(taken_, number - 1); }
 
   /// The checks of apply() alone.
   Result<MapFrame> check(const Frame& frame) const;

@@ -97,17 +97,31 @@ Result<std::optional<FrameMessage>> LcmLogReader::next_frame() {
 
 Result<std::optional<std::variant<Frame, Event>>> LcmLogReader::next_input() {
   using Input = std::variant<Frame, Event>;
-  auto message = next_of({kDetectionsChannel, kEventChannel});
-  if (!message) return message.error();
-  if (!*message) return std::optional<Input>();
-  if ((**message).channel == kEventChannel) {
-    auto event = decode_event((**message).data);
-    if (!event) return at_event(event.error());
-    return std::optional<Input>(std::move(event->event));
+  for (;;) {
+    auto item = next_item();
+    if (!item) return item.error();
+    if (!*item) return std::optional<Input>();
+    if (auto* frame = std::get_if<Frame>(&**item)) return std::optional<Input>(std::move(*frame));
+    if (auto* event = std::get_if<Event>(&**item)) return std::optional<Input>(std::move(*event));
   }
-  auto frame = decode_frame((**message).data);
+}
+
+Result<std::optional<std::variant<Frame, Event, std::string>>> LcmLogReader::next_item() {
+  using Item = std::variant<Frame, Event, std::string>;
+  auto message = next_of({kDetectionsChannel, kEventChannel, kReplayChannel});
+  if (!message) return message.error();
+  if (!*message) return std::optional<Item>();
+  const auto& [channel, data] = **message;
+  if (channel == kReplayChannel)
+    return std::optional<Item>(std::string(data.begin(), data.end()));
+  if (channel == kEventChannel) {
+    auto event = decode_event(data);
+    if (!event) return at_event(event.error());
+    return std::optional<Item>(std::move(event->event));
+  }
+  auto frame = decode_frame(data);
   if (!frame) return at_event(frame.error());
-  return std::optional<Input>(std::move(frame->frame));
+  return std::optional<Item>(std::move(frame->frame));
 }
 
 Status LcmLogWriter::write(const std::string& channel, Utime utime,

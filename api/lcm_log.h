@@ -40,6 +40,9 @@ class LcmLogReader {
   /// besides: what decode_frame() and decode_event() refuse, as next_frame() does.
   Result<std::optional<std::variant<Frame, Event>>> next_input();
 
+  /// The same, or a note of an exported log on kReplayChannel, as the text that it is.
+  Result<std::optional<std::variant<Frame, Event, std::string>>> next_item();
+
   /// How many events have been read, those of other channels included.
   std::int64_t events() const { return events_; }
 

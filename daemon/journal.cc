@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "daemon/logged.h"
+#include "api/logged.h"
 #include "lcmtypes/checked_decode.h"
 #include "lcmtypes/codec.h"
 #include "lcmtypes/event_codec.h"

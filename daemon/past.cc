@@ -34,6 +34,19 @@ Status Past::await(std::int64_t least) {
 }
 
 Result<Snapshot> Past::at(Utime utime, std::int64_t least) {
+  const auto known = ask(utime, least);
+  if (!known) return known.error();
+  const World& world = (*known)->fold.world();
+  return Snapshot{world.belief(), world.background()};
+}
+
+Result<Past::Then> Past::world_at(Utime utime, std::int64_t least) {
+  const auto known = ask(utime, least);
+  if (!known) return known.error();
+  return Then{(*known)->fold.world(), (*known)->next};
+}
+
+Result<const Past::Known*> Past::ask(Utime utime, std::int64_t least) {
   if (auto opened = log(); !opened) return opened.error();
   if (Status there = await(least); !there) return there.error();
   // Only the last one can have become another: the first frame under it is its beginning.
@@ -50,10 +63,9 @@ Result<Snapshot> Past::at(Utime utime, std::int64_t least) {
     known = reach(utime);
   }
   if (!known) return known.error();
-  Snapshot out{known->fold.world().belief(), known->fold.world().background()};
   known_.push_front(*std::move(known));
   if (known_.size() > kKnown) known_.pop_back();
-  return out;
+  return &known_.front();
 }
 
 Result<Past::Known> Past::reach(Utime utime) {

@@ -29,6 +29,13 @@ class Past {
   /// kUnknown: that time is given up, see LogLimits.
   Result<Snapshot> at(Utime utime, std::int64_t least);
 
+  /// The same as a world, and the first frame or event that is not in it.
+  struct Then {
+    World world;
+    std::int64_t next;
+  };
+  Result<Then> world_at(Utime utime, std::int64_t least);
+
   /// What the log says besides; see LogReader.
   Result<LogReader*> log();
 
@@ -42,6 +49,7 @@ class Past {
   };
   static constexpr std::size_t kKnown = 8;
 
+  Result<const Known*> ask(Utime utime, std::int64_t least);
   Status await(std::int64_t least);
   Result<Known> reach(Utime utime);
   Result<Known> nearest(Utime utime);

@@ -4,7 +4,7 @@
 
 #include "anchoring/checkpoint.h"
 #include "anchoring/reconfigure.h"
-#include "daemon/logged.h"
+#include "api/logged.h"
 
 namespace anchord {
 
@@ -54,6 +54,7 @@ Status Refold::take(const LoggedFrame& logged) {
     index_ = index;
   }
   const auto accepted = read_logged(logged);
+  world_.count_from(logged.sequence);
   return accepted ? apply(world_, *accepted) : Status(accepted.error());
 }
 

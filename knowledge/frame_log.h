@@ -106,6 +106,8 @@ class FrameLog {
   /// than `most` rows: of each stretch of so many s the first sample stays, and those at which the
   /// place changes. Gives how many rows went.
   Result<std::int64_t> thin_history(double grain, Utime until, std::int64_t most);
+  /// Forgets the history from that time on.
+  Status forget_history(Utime from);
   /// Puts a base in the place of all before it: drop() may drop that from then on. In an empty log
   /// it says where the log begins.
   Status put_base(const LogBase& base);

@@ -84,6 +84,11 @@ Result<std::int64_t> FrameLog::thin_history(double grain, Utime until, std::int6
   return gone;
 }
 
+Status FrameLog::forget_history(Utime from) {
+  return write("forget the history", "DELETE FROM history WHERE utime >= ?1",
+               [&](Statement& s) { s.bind(1, from); });
+}
+
 Status FrameLog::put_base(const LogBase& base) {
   const StoredCheckpoint& c = base.checkpoint;
   const Status kept = write(

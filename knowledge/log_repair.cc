@@ -13,6 +13,7 @@
 #include "knowledge/database_pages.h"
 #include "knowledge/frame_log.h"
 #include "knowledge/page_rows.h"
+#include "knowledge/saved_past.h"
 
 namespace anchord {
 namespace {
@@ -70,10 +71,22 @@ class Salvage {
   std::int64_t last() const { return places_.empty() ? 0 : places_.back().sequence; }
 
   /// Copies it, and says so in the report.
-  Status write(FrameLog& log, std::int64_t committed, RepairReport& report) const {
+  Status write(FrameLog& log, std::int64_t committed, RepairReport& report) {
     constexpr std::int64_t kBatch = 1000;
-    std::int64_t expected = 1;
+    std::int64_t before = 0;  // the numbers that the new log begins after
+    if (past_.base()) {
+      if (options_.until && *options_.until < past_.base()->checkpoint.utime)
+        return Error{ErrorCode::kConflict, "--until",
+                     "lies before what the log's beginning was folded into"};
+      report.base_lost = !base_holds();
+      if (!report.base_lost) {
+        before = past_.base()->first_kept - 1;
+        if (Status put = log.put_base(*past_.base()); !put) return put;
+      }
+    }
+    std::int64_t expected = before + 1;
     for (const Place& place : places_) {
+      if (place.sequence <= before) continue;
       if (place.sequence > expected) report.lost.push_back({expected, place.sequence - 1});
       expected = place.sequence + 1;
       LoggedFrame frame = read(place);
@@ -82,13 +95,16 @@ class Salvage {
         ++report.left_out;
         continue;
       }
-      const bool all_before = place.sequence == report.saved + 1;
+      const bool all_before = place.sequence == before + report.saved + 1;
       if (!all_before && !options_.doubtful_events && frame.kind == LoggedFrame::Kind::kEvent) {
         ++report.left_out;
         ++report.doubtful;
         continue;
       }
-      frame.sequence = ++report.saved;
+      if (const auto configuration = past_.change_at(place.sequence))
+        if (Status put = log.put_configuration({before + report.saved + 1, *configuration}); !put)
+          return put;
+      frame.sequence = before + ++report.saved;
       Status appended = log.append(frame);
       // Two rows of one sensor and time: of an index that was damaged already, or a failed batch.
       if (!appended && appended.error().code == ErrorCode::kConflict) {
@@ -104,6 +120,8 @@ class Salvage {
       if (Status put = log.put_task(id, task.ended, task.bytes); !put) return put;
       ++report.tasks;
     }
+    if (Status put = past_.write_history(log, options_.until.value_or(kLatestUtime)); !put)
+      return put;
     return log.commit();
   }
 
@@ -119,6 +137,7 @@ class Salvage {
       if (!page) continue;
       for_each_row(*page, pages_, [&](std::int64_t number, Row row) {
         if (frame_in(number, row, options_)) places_.push_back({number, i});
+        past_.take(number, row);
         if (row.size() == 3 && are(row, 0, {Kind::kNull, Kind::kInteger, Kind::kBytes}))
           tasks_[number] = {row[1].integer != 0, {row[2].bytes.begin(), row[2].bytes.end()}};
       });
@@ -138,8 +157,23 @@ class Salvage {
     return frame;
   }
 
+  /// Whether the frames are there before which late ones may have their place in the base.
+  bool base_holds() const {
+    const LogBase& base = *past_.base();
+    std::int64_t next = base.first_kept;
+    for (const Place& place : places_)
+      if (place.sequence == next && next <= base.checkpoint.sequence) {
+        if (next == base.checkpoint.sequence &&
+            checksum(read(place)) != base.checkpoint.frame_checksum)
+          return false;
+        ++next;
+      }
+    return next == base.checkpoint.sequence + 1;
+  }
+
   DatabasePages pages_;
   const RepairOptions& options_;
+  SavedPast past_;
   std::vector<Place> places_;  ///< in order of sequence, each once
   std::map<std::int64_t, SavedTask> tasks_;
 };

@@ -33,7 +33,9 @@ struct RepairReport {
     bool operator==(const Range&) const = default;
   };
   std::vector<Range> lost;  ///< by their number in the old log
-  std::string kept_as;      ///< path of the old database
+  /// What the log's beginning was folded into is lost: the belief begins with the frames that are.
+  bool base_lost = false;
+  std::string kept_as;  ///< path of the old database
 };
 
 /// Makes a new frame log out of what is whole in the one in `directory`, and puts it in its place.

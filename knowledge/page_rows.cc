@@ -1,5 +1,6 @@
 #include "knowledge/page_rows.h"
 
+#include <bit>
 #include <algorithm>
 #include <optional>
 
@@ -65,13 +66,14 @@ std::optional<StoredValue> take_value(std::int64_t kind, Bytes& bytes) {
   using Kind = StoredValue::Kind;
   if (kind == 0) return StoredValue{};
   if (kind == 8 || kind == 9) return StoredValue{Kind::kInteger, kind - 8, {}};
-  constexpr std::size_t kIntegers[] = {0, 1, 2, 3, 4, 6, 8};
-  if (kind < 0 || (kind > 6 && kind < 12)) return {};
-  const auto size = kind <= 6 ? kIntegers[kind] : static_cast<std::size_t>(kind - 12) / 2;
+  constexpr std::size_t kNumbers[] = {0, 1, 2, 3, 4, 6, 8, 8};
+  if (kind < 0 || (kind > 7 && kind < 12)) return {};
+  const auto size = kind <= 7 ? kNumbers[kind] : static_cast<std::size_t>(kind - 12) / 2;
   if (size > bytes.size()) return {};
   const Bytes value = bytes.first(size);
   bytes = bytes.subspan(size);
   if (kind <= 6) return StoredValue{Kind::kInteger, big_endian(value), {}};
+  if (kind == 7) return StoredValue{Kind::kReal, 0, {}, std::bit_cast<double>(big_endian(value))};
   return StoredValue{kind % 2 == 0 ? Kind::kBytes : Kind::kText, 0, value};
 }
 

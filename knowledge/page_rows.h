@@ -12,10 +12,11 @@ namespace anchord {
 
 /// One value of a row as SQLite stores it.
 struct StoredValue {
-  enum class Kind { kNull, kInteger, kText, kBytes };
+  enum class Kind { kNull, kInteger, kText, kBytes, kReal };
   Kind kind = Kind::kNull;
   std::int64_t integer = 0;
   std::span<const std::uint8_t> bytes;  ///< of a text or of bytes; as long as the row
+  double real = 0;                      ///< of a real; SQLite stores one that is whole as integer
 
   std::string_view text() const {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

@@ -15,5 +15,7 @@ inline constexpr char kTaskChannel[] = "ANCHORD_VERIFY_TASK";        ///< verify
 inline constexpr char kResultChannel[] = "ANCHORD_VERIFY_RESULT";    ///< verify_result_t, in
 inline constexpr char kImageChannel[] = "ANCHORD_IMAGE";  ///< image_t, between cameras and
                                                           ///< verification modules
+/// In exported logs only: notes as JSON text (api/replay_note.h), no LCM type.
+inline constexpr char kReplayChannel[] = "ANCHORD_REPLAY";
 
 }  // namespace anchord

@@ -12,17 +12,26 @@ namespace anchord {
 
 namespace {
 
-Result<Input> parse_input(const std::string& line, int dims) {
+using Item = FrameSource::Item;
+
+Result<Item> parse_note(const nlohmann::json& json, int dims) {
+  auto note = note_from_json(json, dims);
+  if (!note) return note.error();
+  return Item(*std::move(note));
+}
+
+Result<Item> parse_item(const std::string& line, int dims) {
   const auto json = parse_json(line);
   if (!json) return json.error();
+  if (is_note(*json)) return parse_note(*json, dims);
   if (json->is_object() && json->contains("event")) {
     auto event = event_from_json(*json, dims);
     if (!event) return event.error();
-    return Input(*std::move(event));
+    return Item(*std::move(event));
   }
   auto frame = frame_from_json(*json);
   if (!frame) return frame.error();
-  return Input(*std::move(frame));
+  return Item(*std::move(frame));
 }
 
 }  // namespace
@@ -43,16 +52,37 @@ Result<std::unique_ptr<FrameSource>> FrameSource::open(const std::string& path, 
 }
 
 Result<std::optional<Input>> FrameSource::next() {
-  if (log_) return log_->next_input();
+  for (;;) {
+    auto item = next_item();
+    if (!item) return item.error();
+    if (!*item) return std::optional<Input>();
+    if (auto* frame = std::get_if<Frame>(&**item)) return std::optional<Input>(std::move(*frame));
+    if (auto* event = std::get_if<Event>(&**item)) return std::optional<Input>(std::move(*event));
+  }
+}
+
+Result<std::optional<Item>> FrameSource::next_item() {
+  if (log_) {
+    auto item = log_->next_item();
+    if (!item) return item.error();
+    if (!*item) return std::optional<Item>();
+    if (auto* frame = std::get_if<Frame>(&**item)) return std::optional<Item>(std::move(*frame));
+    if (auto* event = std::get_if<Event>(&**item)) return std::optional<Item>(std::move(*event));
+    const auto json = parse_json(std::get<std::string>(**item));
+    if (!json) return json.error();
+    auto note = parse_note(*json, dims_);
+    if (!note) return note.error();
+    return std::optional(*std::move(note));
+  }
   std::string line;
   while (std::getline(*stream_, line)) {
     ++line_;
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    auto input = parse_input(line, dims_);
-    if (!input) return input.error();
-    return std::optional(*std::move(input));
+    auto item = parse_item(line, dims_);
+    if (!item) return item.error();
+    return std::optional(*std::move(item));
   }
-  return std::optional<Input>();
+  return std::optional<Item>();
 }
 
 std::string FrameSource::position() const {

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "api/lcm_log.h"
+#include "api/replay_note.h"
 #include "core/event.h"
 #include "core/frame.h"
 #include "core/result.h"
@@ -24,8 +25,15 @@ class FrameSource {
  public:
   static Result<std::unique_ptr<FrameSource>> open(const std::string& path, int dims);
 
-  /// The next frame or event, or nothing at the end. Empty lines are skipped.
+  /// The next frame or event, or nothing at the end. Empty lines and notes are skipped.
   Result<std::optional<Input>> next();
+
+  /// The same, or a note of an exported log.
+  using Item = std::variant<Frame, Event, ReplayNote>;
+  Result<std::optional<Item>> next_item();
+
+  /// The world has so many dimensions from here on.
+  void set_dims(int dims) { dims_ = dims; }
 
   /// Where the last one stood, for messages: "frames.jsonl:12" or "log.lcm: event 12".
   std::string position() const;

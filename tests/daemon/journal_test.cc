@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <nlohmann/json.hpp>
 
 #include "knowledge/sqlite.h"
 #include "lcmtypes/codec.h"
@@ -249,17 +250,23 @@ TEST_F(JournalTest, RestoresTheBeliefToTheByte) {
   EXPECT_EQ(statistics_.late, 0u) << "counted since the start";
 }
 
-TEST_F(JournalTest, ALogThatDoesNotFitTheConfigurationIsNamed) {
+TEST_F(JournalTest, AFrameThatCannotBeFoldedIsNamed) {
   {
     auto journal = started();
     ASSERT_TRUE(journal && apply(*journal, {frame_number(1), frame_number(2)}).ok());
   }
-  Knowledge without_colors = scene();
-  without_colors.attributes.erase(without_colors.attributes.begin() +
-                                  without_colors.find_attribute("color"));
+  // A configuration without colors, as if the log had been written under it.
+  auto without = nlohmann::json::parse(kScene);
+  without["attributes"].erase("color");
+  const auto configuration = parse_configuration(without.dump());
+  {
+    auto log = FrameLog::open(folder_ / "data");
+    ASSERT_TRUE((*log)->put_configuration({1, configuration.knowledge().text}).ok());
+    ASSERT_TRUE((*log)->commit().ok());
+  }
   auto log = FrameLog::open(folder_ / "data");
   ASSERT_TRUE(log.ok());
-  Journal journal(World(without_colors), *std::move(log), statistics_, times_, {});
+  Journal journal(World(configuration.knowledge()), *std::move(log), statistics_, times_, {});
   const auto restored = journal.restore(std::atomic<bool>{false});
   ASSERT_FALSE(restored.ok());
   EXPECT_EQ(restored.error().field, "detections[0].attributes.color");

@@ -19,6 +19,19 @@ int fail(int status, const std::string& message) {
   return status;
 }
 
+using anchord::read_configuration;
+
+/// The configuration with which an exported log begins.
+anchord::Configuration configuration_in(anchord::FrameSource& source) {
+  const auto first = source.next_item();
+  if (!first) return anchord::ConfigurationMistakes{{"", first.error().text()}};
+  const auto* note = *first ? std::get_if<anchord::ReplayNote>(&**first) : nullptr;
+  if (!note || note->configuration.empty())
+    return anchord::ConfigurationMistakes{
+        {"", "begins with no configuration, as an exported log does: give one with --config"}};
+  return anchord::parse_configuration(note->configuration);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -26,7 +39,8 @@ int main(int argc, char** argv) {
   std::string config, input, output = "-", stats;
   bool no_timing = false, quiet = false;
   anchord::ReplayOptions options;
-  app.add_option("--config", config, "configuration of the world")->required();
+  app.add_option("--config", config,
+                 "configuration of the world; an exported log has its own, which hold without this");
   app.add_option("--input", input,
                  "frames and events: JSON lines, an LCM log (.lcm, .lcmlog), or -")
       ->required();
@@ -48,14 +62,17 @@ int main(int argc, char** argv) {
   }
   options.timing = !no_timing;
 
-  const auto configuration = anchord::read_configuration(config);
+  options.own_configuration = !config.empty();
+  auto source = anchord::FrameSource::open(input, 3);
+  if (!source) return fail(kFailed, source.error().text());
+  auto configuration = config.empty() ? configuration_in(**source) : read_configuration(config);
   if (!configuration.ok()) {
     for (const auto& mistake : configuration.mistakes())
-      std::fprintf(stderr, "%s: %s\n", config.c_str(), mistake.text().c_str());
+      std::fprintf(stderr, "%s: %s\n", (config.empty() ? input : config).c_str(),
+                   mistake.text().c_str());
     return kWrongCall;
   }
-  auto source = anchord::FrameSource::open(input, configuration.knowledge().dims);
-  if (!source) return fail(kFailed, source.error().text());
+  (*source)->set_dims(configuration.knowledge().dims);
   std::ofstream file;
   std::ostream* out = quiet ? nullptr : &std::cout;
   if (!quiet && output != "-") {

@@ -6,7 +6,12 @@
 #include <numeric>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
+#include "anchoring/checkpoint.h"
+#include "anchoring/reconfigure.h"
+#include "api/logged.h"
+#include "knowledge/configuration.h"
 #include "lcmtypes/codec.h"
 #include "lcmtypes/event_codec.h"
 
@@ -37,11 +42,27 @@ class Applied {
   std::unordered_multimap<std::string, std::size_t> digests_;
 };
 
-Status apply(World& world, const Input& input, std::optional<std::uint64_t> work) {
-  if (const auto* frame = std::get_if<Frame>(&input)) return world.apply(*frame, work);
-  const auto number = world.apply(std::get<Event>(input));
-  if (!number) return number.error();
-  return Done{};
+/// What an exported log says of the world itself.
+Status heed(World& world, const ReplayNote& note, bool own_configuration) {
+  if (note.number) world.count_from(*note.number);
+  if (!note.configuration.empty() && !own_configuration) {
+    const auto configuration = parse_configuration(note.configuration);
+    if (!configuration.ok())
+      return invalid("configuration", configuration.mistakes().front().text());
+    const Knowledge& knowledge = configuration.knowledge();
+    if (knowledge.fingerprint != world.background()->knowledge.fingerprint) {
+      auto changed = reconfigured(world, knowledge);
+      if (!changed) return changed.error();
+      world = *std::move(changed);
+    }
+  }
+  if (!note.state) return Done{};
+  if (world.belief()->frames > 0) return invalid("state", "must stand before all frames");
+  auto state = read_checkpoint(note.state->checkpoint, world);
+  if (!state) return state.error();
+  if (state->recent.size() != note.state->recent.size())
+    return invalid("state.recent", "must be what the checkpoint names");
+  return world.resume(*std::move(state), note.state->recent);
 }
 
 double quantile(std::vector<double> sorted, double q) {
@@ -76,20 +97,33 @@ Result<ReplayStatistics> replay(World& world, FrameSource& source, std::ostream*
                                 const ReplayOptions& options, const Stopwatch& stopwatch) {
   ReplayStatistics statistics;
   Applied applied;
+  std::optional<std::uint64_t> work;  // that a note says of what follows
   const auto refused = [&](const Error& error) {
     return Error{error.code, "", source.position() + ": " + error.text()};
   };
   while (true) {
-    auto next = source.next();
+    auto next = source.next_item();
     if (!next) return refused(next.error());
     if (!*next) break;
-    const Input& input = **next;
-    if (applied.has(input)) continue;
+    if (const auto* note = std::get_if<ReplayNote>(&**next)) {
+      if (Status heeded = heed(world, *note, options.own_configuration); !heeded)
+        return refused(heeded.error());
+      work = note->work;
+      continue;
+    }
+    Accepted input;
+    if (auto* frame = std::get_if<Frame>(&**next))
+      input.what = std::move(*frame);
+    else
+      input.what = std::move(std::get<Event>(**next));
+    if (applied.has(input.what)) continue;
+    input.work = std::exchange(work, std::nullopt);
+    if (options.work) input.work = options.work;
     const double before = stopwatch();
-    if (Status done = apply(world, input, options.work); !done) return refused(done.error());
+    if (Status done = apply(world, input); !done) return refused(done.error());
     const double elapsed = stopwatch() - before;
-    applied.add(input);
-    if (const auto* frame = std::get_if<Frame>(&input)) {
+    applied.add(input.what);
+    if (const auto* frame = std::get_if<Frame>(&input.what)) {
       ++statistics.frames;
       statistics.detections += frame->detections.size();
       statistics.update_ms.push_back(elapsed * 1e3);

@@ -17,6 +17,7 @@ struct ReplayOptions {
   WorldLineOptions line;
   bool timing = true;                 ///< write `elapsed_us`
   std::optional<std::uint64_t> work;  ///< bound on what folding a frame may take; see Effort
+  bool own_configuration = true;  ///< false: those that an exported log names are in force
 };
 
 /// What a replay did, for STATS.json.
@@ -33,7 +34,8 @@ struct ReplayStatistics {
 };
 
 /// Folds all frames and events of a source and writes a line after each that was applied. One sent
-/// again is passed over. Stops at a refused one with its position.
+/// again is passed over. Stops at a refused one with its position. Of an exported log its notes are
+/// heeded; a state, where a span begins, needs a world of the configuration that it is of.
 Result<ReplayStatistics> replay(World& world, FrameSource& source, std::ostream* output,
                                 const ReplayOptions& options, const Stopwatch& stopwatch);
 

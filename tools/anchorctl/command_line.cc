@@ -42,6 +42,7 @@ struct Given {
   VerifyOptions verify;
   EventOptions event;
   RepairCall repair;
+  LogCall log;
 };
 
 void add_common(CLI::App& app, Given& given) {
@@ -147,6 +148,7 @@ std::variant<Call, int> parse_command_line(int argc, const char* const* argv) {
   add_event_commands(app, given.event, [&](CLI::App& command) { add_common(command, given); });
   add_command(app, "status", "how the daemon is", "", given);
   add_repair_command(app, given.repair);
+  add_log_commands(app, given.log);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -155,10 +157,12 @@ std::variant<Call, int> parse_command_line(int argc, const char* const* argv) {
     return wrong(error.what());
   }
   const CLI::App& command = *app.get_subcommands().front();
-  if (command.get_name() == "repair") {
+  if (const std::string name = command.get_name();
+      name == "repair" || name == "export" || name == "rebuild") {
     Call call;
-    call.command = "repair";
+    call.command = name;
     call.repair = given.repair;
+    call.log = given.log;
     return call;
   }
   return to_call(command.get_name(), given, command.remaining());

@@ -6,6 +6,7 @@
 
 #include "tools/anchorctl/fields.h"
 #include "tools/anchorctl/http_client.h"
+#include "tools/anchorctl/log_commands.h"
 #include "tools/anchorctl/repair.h"
 
 namespace anchord {
@@ -15,7 +16,7 @@ inline constexpr int kFailed = 1, kWrongCall = 2;
 
 /// One call of the program.
 struct Call {
-  /// where, objects, count, hypotheses, history, watch, status, verify, repair; event for all that tell one.
+  /// where, objects, count, hypotheses, history, watch, status, verify, repair, export, rebuild; event for all that tell one.
   std::string command;
   ServerAddress server;
   HttpCall asked;     ///< of the daemon
@@ -26,6 +27,7 @@ struct Call {
   double interval_s = 0.5;
   std::optional<double> for_s;
   RepairCall repair;
+  LogCall log;  ///< export, rebuild
 };
 
 /// Reads the arguments, and ANCHORD_SERVER for a missing --server. If there is nothing to do, the

@@ -97,8 +97,11 @@ int run_verify(const Call& call) {
   return went_well(end->json) ? shown : kFailed;
 }
 
-int run_repair(const Call& call) {
-  const auto text = repair(call.repair);
+/// What works on a data directory.
+int run_on_log(const Call& call) {
+  const auto text = call.command == "repair"   ? repair(call.repair)
+                    : call.command == "export" ? export_span(call.log)
+                                               : rebuild_log(call.log);
   return text ? show(*text) : fail(text.error());
 }
 
@@ -141,7 +144,8 @@ int main(int argc, char** argv) {
     if (asked.command == "watch") return anchord::run_watch(asked);
     if (asked.command == "verify") return anchord::run_verify(asked);
     if (asked.command == "event") return anchord::run_event(asked);
-    if (asked.command == "repair") return anchord::run_repair(asked);
+    for (const char* command : {"repair", "export", "rebuild"})
+      if (asked.command == command) return anchord::run_on_log(asked);
     return anchord::run_once(asked);
   } catch (const std::exception& error) {
     return anchord::fail({anchord::ErrorCode::kIo, "", error.what()});

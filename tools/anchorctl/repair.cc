@@ -54,6 +54,8 @@ std::string repair_text(const RepairReport& report) {
   }
   text += lost == 0 ? "nothing that was acknowledged is known to be lost\n"
                     : "lost " + std::to_string(lost) + ": number" + ranges + " of the old log\n";
+  if (report.base_lost)
+    text += "what had been given up before is lost, too: the belief begins with what is left\n";
   if (const std::int64_t asked = report.left_out - report.doubtful; asked > 0)
     text += "left out " + std::to_string(asked) + " as asked\n";
   if (report.doubtful > 0)

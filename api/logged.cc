@@ -1,4 +1,4 @@
-#include "daemon/logged.h"
+#include "api/logged.h"
 
 #include "lcmtypes/checked_decode.h"
 #include "lcmtypes/event_codec.h"
