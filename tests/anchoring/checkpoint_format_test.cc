@@ -1,0 +1,69 @@
+// Checkpoints that older programs have written are read.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "anchoring/checkpoint.h"
+#include "tests/anchoring/older_checkpoint.h"
+#include "tests/anchoring/small_events.h"
+
+namespace anchord {
+namespace {
+
+std::vector<std::uint8_t> bytes_in(const std::string& file) {
+  std::ifstream stream(ANCHORD_SOURCE_DIR "/tests/data/" + file, std::ios::binary);
+  EXPECT_TRUE(stream) << file;
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::uint8_t> bytes_of(const World& world) {
+  return write_checkpoint(world.state(), *world.background());
+}
+
+/// A world that goes on from a checkpoint of older_scene().
+World resumed(const std::vector<std::uint8_t>& bytes, const OlderScene& scene) {
+  World world(scene.knowledge);
+  auto state = read_checkpoint(bytes, world);
+  EXPECT_TRUE(state.ok()) << state.error().text();
+  std::vector<Accepted> recent;
+  for (const WorldState::Step& step : state->recent)
+    recent.push_back(scene.before[step.number - 1]);
+  EXPECT_TRUE(world.resume(*std::move(state), recent).ok());
+  return world;
+}
+
+TEST(CheckpointFormat, OneIsReadAndGoesOnAsIfItHadNeverStopped) {
+  const OlderScene scene = older_scene();
+  World all(scene.knowledge);
+  for (const Accepted& step : scene.before) take(all, step);
+  World older = resumed(bytes_in("checkpoint_1.bin"), scene);
+  EXPECT_GT(older.state().recent.size(), 1u);
+  EXPECT_EQ(older.state().floor, 0);
+  World newer = resumed(bytes_of(older), scene);
+  for (const Accepted& step : scene.after) {
+    ASSERT_EQ(everything(older), everything(all));
+    ASSERT_EQ(bytes_of(older), bytes_of(all));
+    ASSERT_EQ(bytes_of(newer), bytes_of(older));
+    for (World* world : {&all, &older, &newer}) take(*world, step);
+  }
+  EXPECT_EQ(everything(older), everything(all));
+  EXPECT_EQ(everything(newer), everything(all));
+}
+
+TEST(CheckpointFormat, OfAProgramToComeIsRefused) {
+  const OlderScene scene = older_scene();
+  World world(scene.knowledge);
+  take(world, scene.before[0]);
+  auto bytes = bytes_of(world);
+  ++bytes[0];  // the format's version is the lowest byte; this machine is little-endian
+  const auto read = read_checkpoint(bytes, World(scene.knowledge));
+  ASSERT_FALSE(read.ok());
+  EXPECT_NE(read.error().message.find("newer"), std::string::npos) << read.error().message;
+}
+
+}  // namespace
+}  // namespace anchord
