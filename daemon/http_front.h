@@ -2,8 +2,11 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
+#include <optional>
 
 #include "api/http_server.h"
+#include "api/static_files.h"
 #include "daemon/journal.h"
 #include "daemon/robots.h"
 #include "daemon/statistics.h"
@@ -31,11 +34,16 @@ struct HttpBackend {
   Statistics& statistics;
   SelfDescription self;
   RefusedBody refused;
+  std::shared_ptr<const StaticFiles> viewer;  ///< pages for people; perhaps none
 };
 
 /// Routes requests: frames and events to the journal, triggers and results to the verifications,
-/// questions to a snapshot, status, metrics and the API's description.
+/// questions to a snapshot, status, metrics and the API's description; other paths may be pages.
 HttpHandler http_routes(HttpBackend backend);
+
+/// With a token everything needs it but the viewer's pages, which hold nothing of the belief and
+/// cannot be given one by a browser that opens them; without one, loopback_door().
+HttpDoor front_door(std::optional<BearerToken> token, std::shared_ptr<const StaticFiles> viewer);
 
 /// Answers a GET of the belief or of the daemon itself; for HTTP and LCM alike.
 HttpResponse answer_get(const HttpTarget& target, const HttpBackend& backend);
