@@ -7,6 +7,8 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <condition_variable>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <unordered_set>
@@ -35,25 +37,34 @@ class HttpSession {
 struct HttpCore : std::enable_shared_from_this<HttpCore> {
   using tcp = boost::asio::ip::tcp;
 
-  HttpCore(HttpHandler the_handler, const HttpLimits& the_limits)
-      : handler(std::move(the_handler)), limits(the_limits) {}
+  HttpCore(HttpHandler the_handler, const HttpLimits& the_limits, HttpDoor the_door)
+      : handler(std::move(the_handler)), limits(the_limits), door(std::move(the_door)) {}
 
   void accept();
   void accepted(tcp::socket socket);
   void remove(const std::shared_ptr<HttpSession>& session) noexcept;
   std::vector<std::shared_ptr<HttpSession>> all_sessions();
+  /// Closes the one that has been idle for longest, if any is. The caller holds the mutex.
+  void evict_idle();
+  /// From now on the session may be evicted; the number is for wakes().
+  std::uint64_t falls_idle(std::shared_ptr<HttpSession> session);
+  /// No longer. False: it has been, and must close without reading what came.
+  bool wakes(std::uint64_t number) noexcept;
 
   boost::asio::io_context io;  // first: destroyed after everything that runs on it
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work{io.get_executor()};
   HttpHandler handler;
   const HttpLimits limits;
+  const HttpDoor door;
   HttpCounters counters;
   tcp::acceptor acceptor{boost::asio::make_strand(io)};
   boost::asio::steady_timer accept_again{acceptor.get_executor()};
   std::atomic<bool> stopping{false};
   std::mutex mutex;
   std::condition_variable removed;
-  std::unordered_set<std::shared_ptr<HttpSession>> sessions;  // guarded by mutex
+  std::unordered_set<std::shared_ptr<HttpSession>> sessions;   // guarded by mutex
+  std::map<std::uint64_t, std::shared_ptr<HttpSession>> idle;  // in their order; by mutex
+  std::uint64_t idle_number = 0;                               // by mutex
 };
 
 std::shared_ptr<HttpSession> make_http_session(HttpCore& core, HttpCore::tcp::socket socket);

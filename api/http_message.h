@@ -28,6 +28,7 @@ struct HttpRequest {
   HttpTarget target;
   std::string content_type;  ///< as sent, with its parameters; empty if missing
   std::string body;
+  std::string if_none_match = {};  ///< that field, as sent
 };
 
 struct HttpResponse {

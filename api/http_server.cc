@@ -1,5 +1,6 @@
 #include "api/http_server.h"
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <charconv>
 #include <exception>
@@ -55,12 +56,26 @@ Error cannot_listen(const Address& address, const error_code& error) {
               "; choose another address with --http ADDR:PORT"};
 }
 
+bool all_loopback(const tcp::resolver::results_type& found) {
+  return std::all_of(found.begin(), found.end(),
+                     [](const auto& entry) { return entry.endpoint().address().is_loopback(); });
+}
+
+Error no_token(const Address& address) {
+  return invalid("http", "`" + address.host +
+                             "` can be reached from other machines, whose programs could read and "
+                             "change what is believed: give a token with --token-file FILE, or "
+                             "serve on 127.0.0.1:" +
+                             std::to_string(address.port));
+}
+
 Status listen(HttpCore& core, const Address& address) {
   error_code error;
   tcp::resolver resolver(core.io);
   const auto found = resolver.resolve(address.host, std::to_string(address.port),
                                       tcp::resolver::numeric_service, error);
   if (error) return cannot_listen(address, error);
+  if (!core.door.beyond_loopback && !all_loopback(found)) return no_token(address);
   const tcp::endpoint endpoint = *found.begin();
   core.acceptor.open(endpoint.protocol(), error);
   // A port that an ended server's connections still wait on may be taken again.
@@ -111,6 +126,7 @@ void HttpCore::accepted(tcp::socket socket) {
   {
     std::lock_guard lock(mutex);
     if (stopping) return;
+    if (sessions.size() >= limits.connections) evict_idle();
     sessions.insert(session);
     count = sessions.size();
     ++counters.connections;
@@ -123,6 +139,26 @@ void HttpCore::accepted(tcp::socket socket) {
     session->refuse();
   else
     session->stop(true);
+}
+
+void HttpCore::evict_idle() {
+  if (idle.empty()) return;
+  const auto oldest = std::move(idle.begin()->second);
+  idle.erase(idle.begin());
+  sessions.erase(oldest);
+  ++counters.evicted;
+  oldest->stop(true);
+}
+
+std::uint64_t HttpCore::falls_idle(std::shared_ptr<HttpSession> session) {
+  std::lock_guard lock(mutex);
+  idle.emplace(++idle_number, std::move(session));
+  return idle_number;
+}
+
+bool HttpCore::wakes(std::uint64_t number) noexcept {
+  std::lock_guard lock(mutex);
+  return idle.erase(number) > 0;
 }
 
 void HttpCore::remove(const std::shared_ptr<HttpSession>& session) noexcept {
@@ -144,13 +180,13 @@ HttpServer::HttpServer(std::shared_ptr<HttpCore> core) : core_(std::move(core)) 
 HttpServer::~HttpServer() { stop(milliseconds(0)); }
 
 Result<std::unique_ptr<HttpServer>> HttpServer::start(const std::string& address,
-                                                      HttpHandler handler,
-                                                      const HttpLimits& limits) {
+                                                      HttpHandler handler, const HttpLimits& limits,
+                                                      HttpDoor door) {
   auto parsed = parse_address(address);
   if (!parsed) return parsed.error();
   try {
     std::unique_ptr<HttpServer> server(
-        new HttpServer(std::make_shared<HttpCore>(std::move(handler), limits)));
+        new HttpServer(std::make_shared<HttpCore>(std::move(handler), limits, std::move(door))));
     HttpCore& core = *server->core_;
     if (auto listening = listen(core, *parsed); !listening) return listening.error();
     server->port_ = core.acceptor.local_endpoint().port();

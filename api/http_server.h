@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "api/http_door.h"
 #include "api/http_message.h"
 #include "core/result.h"
 
@@ -19,8 +20,9 @@ struct HttpCore;
 /// What clients may take of the server.
 struct HttpLimits {
   std::size_t header_bytes = 16 * 1024;            ///< request line and fields; more: 431
+  std::size_t target_bytes = 8 * 1024;             ///< path and parameters; more: 414
   std::size_t body_bytes = 8 * 1024 * 1024;        ///< plain or chunked; more: 413
-  std::size_t connections = 256;                   ///< open ones; more: 503 and closed
+  std::size_t connections = 256;                   ///< open ones; see HttpServer
   std::chrono::milliseconds request_time{10'000};  ///< first byte to last; longer: 408
   std::chrono::milliseconds idle_time{60'000};     ///< between requests; longer: closed
   std::chrono::milliseconds write_time{10'000};    ///< to take an answer; longer: closed
@@ -33,6 +35,9 @@ struct HttpCounters {
   std::atomic<std::uint64_t> connections{0};       ///< accepted
   std::atomic<std::uint64_t> open{0};              ///< now
   std::atomic<std::uint64_t> refused{0};           ///< connections over the limit
+  std::atomic<std::uint64_t> evicted{0};           ///< idle ones that made room for new ones
+  std::atomic<std::uint64_t> unauthorized{0};      ///< answered with 401
+  std::atomic<std::uint64_t> foreign{0};           ///< other refusals of the door (403, 421)
   std::atomic<std::uint64_t> requests{0};          ///< read whole
   std::atomic<std::uint64_t> responses[6]{};       ///< by class of status; [4]: 4xx
   std::atomic<std::uint64_t> request_timeouts{0};  ///< answered with 408
@@ -43,15 +48,20 @@ struct HttpCounters {
 
 /// An HTTP/1.1 server with keep-alive and pipelining; a connection's requests are answered one
 /// after the other. Reads Content-Length and chunked bodies, honours `Expect: 100-continue`,
-/// answers OPTIONS by itself, and refuses by itself what is no well-formed request or is over a
-/// limit; all else, unknown methods and paths included, is the handler's. It knows no TLS.
+/// answers OPTIONS by itself, and refuses by itself what is no well-formed request, is over a limit
+/// or is not let in by the door, before it reads a body; all else, unknown methods and paths
+/// included, is the handler's. A new connection over their limit takes the place of the one that
+/// has been idle for longest; it gets 503 where none is idle. What is answered with 503 bears
+/// Retry-After. It knows no TLS.
 class HttpServer {
  public:
   /// Listens on `address`, "ADDR:PORT" (`127.0.0.1:7780`, `[::1]:7780`, `localhost:0`; port 0: any
-  /// free one) and serves on threads of its own. Errors: kInvalid: the address; kIo: the port is in
-  /// use, or the machine refuses.
+  /// free one) and serves on threads of its own. Errors: kInvalid: the address, or it (for a name:
+  /// any that it stands for) is no loopback address and the door does not allow that; kIo: the port
+  /// is in use, or the machine refuses.
   static Result<std::unique_ptr<HttpServer>> start(const std::string& address, HttpHandler handler,
-                                                   const HttpLimits& limits = {});
+                                                   const HttpLimits& limits = {},
+                                                   HttpDoor door = {});
   /// stop() without waiting.
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;

@@ -6,8 +6,10 @@
 #include <boost/beast/http.hpp>
 #include <chrono>
 #include <optional>
+#include <string_view>
 #include <utility>
 
+#include "api/http_checks.h"
 #include "api/http_core.h"
 
 namespace anchord {
@@ -23,19 +25,7 @@ namespace {
 
 constexpr std::size_t kReadBytes = 16 * 1024;
 
-/// What the client gets for a request that cannot be read.
-HttpResponse refusal_of(error_code error, const HttpLimits& limits) {
-  if (error == http::error::header_limit)
-    return http_error(
-        431, "header_too_large",
-        "the request's header may have " + std::to_string(limits.header_bytes) + " bytes",
-        "header");
-  if (error == http::error::body_limit)
-    return http_error(413, "too_large",
-                      "the request's body may have " + std::to_string(limits.body_bytes) + " bytes",
-                      "body");
-  return http_error(400, "malformed", "this is no HTTP/1.1 request: " + error.message());
-}
+constexpr char kRetryAfter_s[] = "1";
 
 /// One connection: read a request, hand it over, write the answer, and again. At most one read, one
 /// write and one timer are under way; all of it runs on the socket's strand.
@@ -91,6 +81,7 @@ class Session : public HttpSession, public std::enable_shared_from_this<Session>
 
   void close() noexcept {
     if (std::exchange(state_, State::kClosed) == State::kClosed) return;
+    core_.wakes(idle_number_);
     error_code ignored;
     socket_.close(ignored);
     try {
@@ -147,6 +138,7 @@ class Session : public HttpSession, public std::enable_shared_from_this<Session>
     if (core_.stopping) return close();
     state_ = State::kIdle;
     set_timer(core_.limits.idle_time);
+    idle_number_ = core_.falls_idle(shared_from_this());
     read_more();
   }
 
@@ -167,7 +159,10 @@ class Session : public HttpSession, public std::enable_shared_from_this<Session>
     if (error == net::error::eof && state_ == State::kReading)
       return respond(refusal_of(http::error::partial_message, core_.limits), false);
     if (error) return close();
-    if (state_ == State::kIdle) begin_reading();
+    if (state_ == State::kIdle) {
+      if (!core_.wakes(idle_number_)) return close();
+      begin_reading();
+    }
     buffer_.commit(size);
     parse();
   }
@@ -182,13 +177,16 @@ class Session : public HttpSession, public std::enable_shared_from_this<Session>
       // The parser's own limit starts anew with every piece that it takes.
       if (in_header) header_bytes_ += used;
       const bool need_more = error == http::error::need_more;
+      if (header_bytes_ == 0 && need_more && begins_with_long_target(buffered(), core_.limits))
+        return respond(target_too_long(core_.limits), false);
       if ((in_header ? header_bytes_ : 0) + (need_more ? buffer_.size() : 0) >
           core_.limits.header_bytes)
         return respond(refusal_of(http::error::header_limit, core_.limits), false);
       if (need_more) return read_more();
       if (error) return respond(refusal_of(error, core_.limits), false);
       if (parser_->is_header_done() && !std::exchange(header_checked_, true)) {
-        if (auto refused = check_header()) return respond(*std::move(refused), false);
+        if (auto refused = check_header(parser_->get().base(), core_))
+          return respond(*std::move(refused), false);
         parser_->eager(true);
         if (!parser_->is_done() && expects_continue() && buffer_.size() == 0)
           return send_continue();
@@ -197,22 +195,8 @@ class Session : public HttpSession, public std::enable_shared_from_this<Session>
     }
   }
 
-  /// What the parser lets through and HTTP/1.1 does not, and encodings that nobody here undoes.
-  std::optional<HttpResponse> check_header() const {
-    const auto& request = parser_->get();
-    if (request.version() >= 11 && request.count(http::field::host) != 1)
-      return http_error(400, "malformed", "the request must name its host once", "host");
-    const auto transfer = request[http::field::transfer_encoding];
-    if (!transfer.empty() && !beast::iequals(transfer, "chunked"))
-      return http_error(501, "unsupported", "a body may be chunked, and nothing else",
-                        "transfer-encoding");
-    const auto content = request[http::field::content_encoding];
-    if (!content.empty() && !beast::iequals(content, "identity"))
-      return http_error(415, "unsupported", "a body must not be compressed", "content-encoding");
-    if (request.count(http::field::expect) > 0 &&
-        !beast::iequals(request[http::field::expect], "100-continue"))
-      return http_error(417, "unsupported", "only 100-continue can be expected", "expect");
-    return std::nullopt;
+  std::string_view buffered() const {
+    return {static_cast<const char*>(buffer_.data().data()), buffer_.size()};
   }
 
   bool expects_continue() const {
@@ -247,6 +231,7 @@ class Session : public HttpSession, public std::enable_shared_from_this<Session>
       response_->body() = std::move(response.body);
     }
     for (const auto& [name, value] : response.headers) response_->set(name, value);
+    if (response.status == 503) response_->set(http::field::retry_after, kRetryAfter_s);
     response_->keep_alive(keep_alive);
     response_->prepare_payload();
     serializer_.emplace(*response_);
@@ -284,6 +269,7 @@ class Session : public HttpSession, public std::enable_shared_from_this<Session>
   tcp::socket socket_;
   net::steady_timer timer_;
   State state_ = State::kIdle;
+  std::uint64_t idle_number_ = 0;  ///< while it is idle: its place among those that are
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   std::size_t header_bytes_ = 0;
@@ -336,7 +322,7 @@ void Session::handle() {
       message.method() == http::verb::head ? beast::string_view("GET") : message.method_string();
   const auto content_type = message[http::field::content_type];
   HttpRequest request{std::string(method), *std::move(target), std::string(content_type),
-                      std::move(message.body())};
+                      std::move(message.body()), std::string(message[http::field::if_none_match])};
   auto pending = std::make_shared<Pending>(core_.shared_from_this(), weak_from_this());
   try {
     core_.handler(std::move(request),

@@ -1,6 +1,6 @@
 # What `cmake --install` puts where, beside the programs and the LCM types, which do so themselves:
-# the configurations, the service, and a package `anchord` for find_package() with the libraries
-# that C++ programs may link.
+# the configurations, the service, the manual, and a package `anchord` for find_package() with the
+# libraries that C++ programs may link.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -24,8 +24,25 @@ install(FILES ${CMAKE_BINARY_DIR}/anchordConfig.cmake ${CMAKE_BINARY_DIR}/anchor
         DESTINATION ${ANCHORD_PACKAGE})
 
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/config DESTINATION share/anchord)
-install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES daemon/openapi.json DESTINATION share/anchord)
+file(GLOB ANCHORD_PAGES ${CMAKE_SOURCE_DIR}/docs/man/*.[18])
+if(NOT ANCHORD_PERCEPTION)
+  list(FILTER ANCHORD_PAGES EXCLUDE REGEX "anchor-(detect|verify)")
+endif()
+if(ANCHORD_PACKAGE)
+  set(ANCHORD_UNITS /lib/systemd/system)
+  set(ANCHORD_UNIT_CONFIG /etc/anchord/home.json)
+  include(cmake/package.cmake)
+else()
+  set(ANCHORD_UNITS lib/systemd/system)
+  set(ANCHORD_UNIT_CONFIG ${CMAKE_INSTALL_FULL_DATADIR}/anchord/config/home.json)
+  install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  foreach(page IN LISTS ANCHORD_PAGES)
+    string(REGEX MATCH "[18]$" section ${page})
+    install(FILES ${page} DESTINATION share/man/man${section})
+  endforeach()
+endif()
 configure_file(${CMAKE_SOURCE_DIR}/daemon/anchord.service.in ${CMAKE_BINARY_DIR}/anchord.service
                @ONLY)
-install(FILES ${CMAKE_BINARY_DIR}/anchord.service DESTINATION lib/systemd/system)
+install(FILES ${CMAKE_BINARY_DIR}/anchord.service DESTINATION ${ANCHORD_UNITS})
 install(FILES ${CMAKE_SOURCE_DIR}/daemon/20-anchord.conf DESTINATION lib/sysctl.d)

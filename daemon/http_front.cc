@@ -114,6 +114,11 @@ bool change(const HttpRequest& request, const HttpReply& reply, const HttpBacken
   return true;
 }
 
+/// Whether a path may be a page's: no file is in the API's way.
+bool may_be_page(const std::string& path) {
+  return path != "/v1" && !path.starts_with("/v1/") && path != "/metrics";
+}
+
 }  // namespace
 
 void answer_get(HttpTarget target, const HttpBackend& backend, const HttpReply& reply) {
@@ -134,9 +139,21 @@ HttpHandler http_routes(HttpBackend backend) {
     if (change(request, reply, backend)) return;
     if (request.method != "GET")
       return reply(method_not_allowed("questions are asked with GET", "GET, HEAD, OPTIONS"));
+    const std::string& path = request.target.path;
+    auto page =
+        may_be_page(path) ? backend.viewer->answer(path, request.if_none_match) : std::nullopt;
+    if (page) return reply(*std::move(page));
     ++backend.statistics.queries;
     answer_get(request.target, backend, reply);
   };
+}
+
+HttpDoor front_door(std::optional<BearerToken> token, std::shared_ptr<const StaticFiles> viewer) {
+  if (!token) return loopback_door();
+  return token_door(*std::move(token), [viewer = std::move(viewer)](std::string_view target) {
+    const auto parsed = parse_target(target);
+    return parsed && may_be_page(parsed->path) && viewer->has(parsed->path);
+  });
 }
 
 }  // namespace anchord

@@ -2,9 +2,12 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
+#include <optional>
 
 #include "api/http_server.h"
 #include "daemon/archive.h"
+#include "api/static_files.h"
 #include "daemon/journal.h"
 #include "daemon/robots.h"
 #include "daemon/statistics.h"
@@ -33,14 +36,19 @@ struct HttpBackend {
   Statistics& statistics;
   SelfDescription self;
   RefusedBody refused;
+  std::shared_ptr<const StaticFiles> viewer;  ///< pages for people; perhaps none
 };
 
 /// Routes requests: frames and events to the journal, triggers and results to the verifications,
-/// questions to a snapshot, status, metrics and the API's description.
+/// questions to a snapshot, status, metrics and the API's description; other paths may be pages.
 HttpHandler http_routes(HttpBackend backend);
 
 /// Answers a GET of the belief, of what it was, or of the daemon itself; for HTTP and LCM alike.
 /// What needs the log is answered from another thread.
 void answer_get(HttpTarget target, const HttpBackend& backend, const HttpReply& reply);
+
+/// With a token everything needs it but the viewer's pages, which hold nothing of the belief and
+/// cannot be given one by a browser that opens them; without one, loopback_door().
+HttpDoor front_door(std::optional<BearerToken> token, std::shared_ptr<const StaticFiles> viewer);
 
 }  // namespace anchord

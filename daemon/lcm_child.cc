@@ -45,7 +45,6 @@ void shed() {
   prctl(PR_SET_NAME, "anchord-lcm");
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  prctl(PR_SET_DUMPABLE, 0);  // ten dumps a second could fill the disk
   // Whoever ends the daemon's group means the daemon, which is to finish what has begun.
   for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGPIPE}) std::signal(signal, SIG_IGN);
   const rlimit files{kFiles, kFiles};
@@ -59,6 +58,8 @@ void shed() {
     [[maybe_unused]] const auto written = write(first_to_go, "1000", 4);
     close(first_to_go);
   }
+  // Ten dumps a second could fill the disk. After the above: it gives /proc/self to root.
+  prctl(PR_SET_DUMPABLE, 0);
 }
 
 /// Datagrams that the kernel has dropped for want of room since the sockets were made.

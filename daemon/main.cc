@@ -12,6 +12,7 @@
 #include <string_view>
 #include <thread>
 
+#include "daemon/installed_files.h"
 #include "daemon/lcm_child.h"
 #include "daemon/service.h"
 #include "knowledge/configuration.h"
@@ -71,13 +72,22 @@ int main(int argc, char** argv) try {
   if (argc == 3 && std::string_view(argv[1]) == anchord::kReceiveLcm)  // only ever by itself
     return anchord::receive_lcm(argv[2]);
   CLI::App app{"The semantic world model of a robot: detections in, beliefs out."};
-  std::string config = ANCHORD_CONFIG;
+  const anchord::InstalledFiles installed = anchord::installed_files();
+  std::string config = installed.configuration;
   anchord::ServiceOptions options;
+  options.viewer = installed.viewer;
   app.add_option("--config", config, "configuration of the world")->capture_default_str();
   app.add_option("--data", options.data_directory, "directory of the frame log")
       ->capture_default_str();
   app.add_option("--lcm", options.lcm_url, "LCM URL; default: LCM's own with ttl 0");
-  app.add_option("--http", options.http_address, "ADDR:PORT to serve on")->capture_default_str();
+  app.add_option("--http", options.http_address,
+                 "ADDR:PORT to serve on; only loopback without --token-file")
+      ->capture_default_str();
+  app.add_option("--token-file", options.token_file,
+                 "file with the token that requests must bear, for its owner alone (mode 600)");
+  app.add_option("--viewer", options.viewer,
+                 "folder of the pages that are served, read at the start; '': none")
+      ->capture_default_str();
   app.add_option("--checkpoint-interval", options.checkpoint_interval,
                  "seconds of work on frames between checkpoints, which a start does again; 0: one "
                  "after each batch")

@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <future>
+#include <optional>
+#include <utility>
 
 namespace anchord {
 namespace {
@@ -18,6 +20,14 @@ double seconds() {
 }  // namespace
 
 Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge, const ServiceOptions& options) {
+  auto viewer = options.viewer.empty() ? StaticFiles() : StaticFiles::read(options.viewer);
+  if (!viewer) return viewer.error();
+  std::optional<BearerToken> token;
+  if (!options.token_file.empty()) {
+    auto read = BearerToken::read(options.token_file);
+    if (!read) return read.error();
+    token = *std::move(read);
+  }
   auto log = FrameLog::open(options.data_directory);
   if (!log) return log.error();
   auto sender = LcmSender::open(options.lcm_url);
@@ -25,8 +35,10 @@ Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge, const Servic
   auto receiver = LcmReceiver::open(options.lcm_receiver, (*sender)->url());
   if (!receiver) return receiver.error();
   std::unique_ptr<Service> service(new Service(std::move(knowledge), options, *std::move(log),
-                                               *std::move(sender), *std::move(receiver)));
-  auto http = HttpServer::start(options.http_address, http_routes(service->backend()));
+                                               *std::move(sender), *std::move(receiver),
+                                               std::make_shared<StaticFiles>(*std::move(viewer))));
+  auto http = HttpServer::start(options.http_address, http_routes(service->backend()), {},
+                                front_door(std::move(token), service->viewer_));
   if (!http) return http.error();
   service->http_ = std::move(*http);
   service->listening_ = service->http_.get();
@@ -34,8 +46,9 @@ Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge, const Servic
 }
 
 Service::Service(Knowledge knowledge, const ServiceOptions& options, std::unique_ptr<FrameLog> log,
-                 std::unique_ptr<LcmSender> sender, std::unique_ptr<LcmReceiver> receiver)
-    : options_(options), began_(seconds()) {
+                 std::unique_ptr<LcmSender> sender, std::unique_ptr<LcmReceiver> receiver,
+                 std::shared_ptr<const StaticFiles> viewer)
+    : options_(options), began_(seconds()), viewer_(std::move(viewer)) {
   lcm_ = std::make_unique<LcmFront>(std::move(sender), std::move(receiver), statistics_);
   World world(std::move(knowledge));
   Journal::Hooks hooks;
@@ -109,7 +122,8 @@ HttpBackend Service::backend() {
       ready_,
       statistics_,
       {[this] { return status_answer(sources()); }, [this] { return metrics_answer(sources()); }},
-      [&lcm = *lcm_](const Error& why) { lcm.publish_refusal(kHttpOrigin, nullptr, why); }};
+      [&lcm = *lcm_](const Error& why) { lcm.publish_refusal(kHttpOrigin, nullptr, why); },
+      viewer_};
 }
 
 StatusSources Service::sources() const {

@@ -19,6 +19,8 @@ struct ServiceOptions {
   std::string data_directory = "anchord-data";
   std::string lcm_url;  ///< empty: LCM's own default with ttl 0
   std::string http_address = "127.0.0.1:7780";
+  std::string token_file;            ///< empty: no token, and loopback addresses only
+  std::string viewer;                ///< folder of the pages that are served; empty: none
   double checkpoint_interval = 0.5;  ///< s of work on frames between checkpoints
   /// The program that receives LCM for this one: its main() calls receive_lcm(). Itself, so that
   /// the two are of one version though another was installed meanwhile.
@@ -45,12 +47,14 @@ class Service {
 
  private:
   Service(Knowledge knowledge, const ServiceOptions& options, std::unique_ptr<FrameLog> log,
-          std::unique_ptr<LcmSender> sender, std::unique_ptr<LcmReceiver> receiver);
+          std::unique_ptr<LcmSender> sender, std::unique_ptr<LcmReceiver> receiver,
+          std::shared_ptr<const StaticFiles> viewer);
   HttpBackend backend();
   StatusSources sources() const;
 
   ServiceOptions options_;
   double began_;
+  std::shared_ptr<const StaticFiles> viewer_;
   std::atomic<bool> ready_{false};
   Statistics statistics_;
   UpdateTimes times_;

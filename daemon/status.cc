@@ -110,6 +110,9 @@ HttpResponse status_answer(const StatusSources& from) {
     out["http"]["connections"] = http.open.load();
     out["http"]["requests"] = http.requests.load();
     out["http"]["refused"] = http.refused.load();
+    out["http"]["evicted"] = http.evicted.load();
+    out["http"]["unauthorized"] = http.unauthorized.load();
+    out["http"]["foreign"] = http.foreign.load();
     out["http"]["client_errors"] = http.responses[4].load();
     out["http"]["timeouts"] = http.request_timeouts.load() + http.write_timeouts.load();
   }
@@ -180,6 +183,12 @@ HttpResponse metrics_answer(const StatusSources& from) {
     out.add("http_connections", "gauge", "open connections", http.open.load());
     out.add("http_requests_total", "counter", "requests read whole", http.requests.load());
     out.add("http_refused_total", "counter", "connections over the limit", http.refused.load());
+    out.add("http_evicted_total", "counter", "idle connections that made room for new ones",
+            http.evicted.load());
+    out.add("http_unauthorized_total", "counter", "requests without the token",
+            http.unauthorized.load());
+    out.add("http_foreign_total", "counter", "requests for other hosts or from other origins",
+            http.foreign.load());
     out.add("http_client_errors_total", "counter", "answers with status 4xx",
             http.responses[4].load());
     out.add("http_timeouts_total", "counter", "clients that were too slow",

@@ -31,6 +31,19 @@ command_build() {
   programs | sed 's/^/    /'
 }
 
+command_package() {
+  need "${PACKAGES_BUILD[@]}" "${PACKAGES_PACKAGE[@]}"
+  configure_and_build package build-package
+  say "packing build-package"
+  rm -f build-package/*.deb
+  (cd build-package && cpack) >"$CACHE/cpack.log" 2>&1 || {
+    tail -n 40 "$CACHE/cpack.log" >&2
+    fail "CPack could not make the package; the lines above are the end of $CACHE/cpack.log"
+  }
+  say "the package, for apt install ./FILE, is"
+  ls build-package/*.deb
+}
+
 # programs: what a user runs, leaving out tests and benchmarks.
 programs() {
   find build -maxdepth 1 -type f -executable ! -name '*_test' ! -name '*_bench' | sort

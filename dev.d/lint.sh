@@ -34,7 +34,7 @@ check_format() {
 check_rooms() { python3 cmake/check_rooms.py; }
 
 check_scripts() {
-  { echo dev && echo .ci/run && project_files '*.sh'; } | xargs shellcheck --external-sources
+  { echo dev && echo .ci/run && project_files '*.sh' 'packaging/p*'; } | xargs shellcheck --external-sources
 }
 
 check_sizes() {

@@ -19,6 +19,7 @@ PACKAGES_BUILD=(
 )
 PACKAGES_TEST=(python3 iproute2)
 PACKAGES_RUN=(iproute2)
+PACKAGES_PACKAGE=(dpkg-dev file gzip)  # dpkg-deb, dpkg-shlibdeps
 PACKAGES_FORMAT=(clang-format-14)
 PACKAGES_LINT=(clang-format-14 cppcheck shellcheck python3)
 PACKAGES_FUZZ=(clang-14 libclang-rt-14-dev llvm-14)

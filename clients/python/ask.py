@@ -9,13 +9,23 @@ import urllib.parse
 import urllib.request
 
 SERVER = os.environ.get("ANCHORD_SERVER", "127.0.0.1:7780")
+TOKEN_FILE = os.environ.get("ANCHORD_TOKEN_FILE")  # of a daemon with --token-file
 
 
 def where(**description):
     """The answer to /v1/where: `answers`, best first, and the expected `undetected` ones."""
     query = urllib.parse.urlencode(description)
-    with urllib.request.urlopen(f"http://{SERVER}/v1/where?{query}", timeout=10) as answer:
+    request = urllib.request.Request(f"http://{SERVER}/v1/where?{query}", headers=authorization())
+    with urllib.request.urlopen(request, timeout=10) as answer:
         return json.load(answer)
+
+
+def authorization():
+    """The header field by which a daemon with a token lets us in."""
+    if not TOKEN_FILE:
+        return {}
+    with open(TOKEN_FILE, encoding="ascii") as file:
+        return {"Authorization": "Bearer " + file.read().strip()}
 
 
 def main():

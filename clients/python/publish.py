@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Feeds one frame to anchord: over HTTP, which needs nothing, or over LCM.
 
-    python3 publish.py [--server ADDR:PORT]
+    python3 publish.py [--server ADDR:PORT] [--token-file FILE]
     python3 publish.py --lcm [URL]
 
 LCM needs the module `lcm` and the generated types, the package `anchord`: put
@@ -10,6 +10,7 @@ PREFIX/lib/python3/dist-packages on PYTHONPATH.
 
 import argparse
 import json
+import os
 import sys
 import time
 import urllib.error
@@ -36,12 +37,16 @@ FRAME = {
 }
 
 
-def over_http(frame, server):
+def over_http(frame, server, token_file=None):
     """Returns when the frame is applied and durable, or raises with what the daemon refuses."""
+    headers = {"Content-Type": "application/json"}
+    if token_file:  # of a daemon that was started with one
+        with open(token_file, encoding="ascii") as file:
+            headers["Authorization"] = "Bearer " + file.read().strip()
     request = urllib.request.Request(
         f"http://{server}/v1/detections",
         data=json.dumps(frame).encode(),
-        headers={"Content-Type": "application/json"},
+        headers=headers,
     )
     try:
         with urllib.request.urlopen(request, timeout=10) as answer:
@@ -87,12 +92,17 @@ def to_message(frame):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--server", default="127.0.0.1:7780", help="ADDR:PORT of the daemon")
+    parser.add_argument(
+        "--token-file",
+        default=os.environ.get("ANCHORD_TOKEN_FILE"),
+        help="file with the daemon's token; default: ANCHORD_TOKEN_FILE",
+    )
     parser.add_argument("--lcm", nargs="?", const="", metavar="URL", help="publish over LCM")
     given = parser.parse_args()
 
     frame = FRAME | {"utime": time.time_ns() // 1000}
     if given.lcm is None:
-        print(over_http(frame, given.server))
+        print(over_http(frame, given.server, given.token_file))
         return
     try:
         import lcm

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/anchorctl/run.h"
 #include "tests/daemon/daemon_process.h"
 
@@ -23,9 +25,10 @@ class Live : public testing::Test {
   }
   void post(const std::string& target, const std::string& body) {
     const Answer answer =
-        ask(daemon_.port(), "POST " + target + " HTTP/1.1\r\nHost: x\r\nConnection: close\r\n" +
-                                "Content-Type: application/json\r\nContent-Length: " +
-                                std::to_string(body.size()) + "\r\n\r\n" + body);
+        ask(daemon_.port(),
+            "POST " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" +
+                "Content-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) +
+                "\r\n\r\n" + body);
     ASSERT_EQ(answer.status, 200) << answer.body;
   }
   Json object(const std::string& called) { return ctl_json("objects --object '" + called + "'"); }
@@ -33,6 +36,35 @@ class Live : public testing::Test {
   TestFolder folder_;
   DaemonProcess daemon_{folder_};
 };
+
+TEST(LiveDoor, ATokenIsReadFromAFile) {
+  TestFolder folder;
+  const auto file = [&](const std::string& name, const std::string& text) {
+    const auto path = folder.write(name, text);
+    std::filesystem::permissions(path, std::filesystem::perms(0600));
+    return path;
+  };
+  const auto right = file("right", "correct-horse-battery-staple\n");
+  const auto wrong = file("wrong", "correct-horse-battery-stapler\n");
+  DaemonProcess daemon(folder, {},
+                       {"--config", folder.write("scene.json", kScene), "--data", folder / "data",
+                        "--lcm", "memq://", "--http", "127.0.0.1:0", "--token-file", right});
+  ASSERT_TRUE(daemon.ready()) << daemon.errors();
+  const std::string status = "status --server 127.0.0.1:" + std::to_string(daemon.port());
+  EXPECT_EQ(run(status + " --token-file " + right).status, 0);
+  EXPECT_EQ(run(status, "ANCHORD_TOKEN_FILE=" + right).status, 0);
+  EXPECT_EQ(run(status + " --token-file " + right, "ANCHORD_TOKEN_FILE=" + wrong).status, 0)
+      << "the option goes before the environment";
+  for (const auto& refused : {run(status + " 2>&1"), run(status + " 2>&1 --token-file " + wrong)}) {
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.output.find("token"), std::string::npos) << refused.output;
+    EXPECT_NE(refused.output.find("401"), std::string::npos) << refused.output;
+  }
+  std::filesystem::permissions(right, std::filesystem::perms(0644));
+  const auto open = run(status + " 2>&1 --token-file " + right);
+  EXPECT_EQ(open.status, 2);
+  EXPECT_NE(open.output.find("chmod 600"), std::string::npos) << open.output;
+}
 
 TEST_F(Live, NamesAreGivenAndTakenBack) {
   const auto named = ctl("name cup-1 'my mug'");
@@ -94,9 +126,10 @@ TEST_F(Live, EveryDescribedCallIsServed) {
       std::string key = method;
       for (char& c : key) c = static_cast<char>(std::tolower(c));
       if (!methods.contains(key)) continue;
-      const Answer answer = ask(
-          daemon_.port(), method + " " + target + " HTTP/1.1\r\nHost: x\r\nConnection: close\r\n" +
-                              "Content-Type: application/json\r\nContent-Length: 2\r\n\r\n{}");
+      const Answer answer =
+          ask(daemon_.port(), method + " " + target +
+                                  " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" +
+                                  "Content-Type: application/json\r\nContent-Length: 2\r\n\r\n{}");
       EXPECT_NE(answer.status, 0) << method << " " << target;
       EXPECT_NE(answer.status, 405) << method << " " << target;
       if (answer.status == 404) {

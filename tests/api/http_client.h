@@ -121,8 +121,9 @@ inline void echo(HttpRequest request, HttpReply reply) {
   reply({200, "text/plain", text, {{"X-Test", "yes"}}});
 }
 
-inline std::unique_ptr<HttpServer> serve(HttpHandler handler, const HttpLimits& limits = {}) {
-  auto server = HttpServer::start("127.0.0.1:0", std::move(handler), limits);
+inline std::unique_ptr<HttpServer> serve(HttpHandler handler, const HttpLimits& limits = {},
+                                         HttpDoor door = {}) {
+  auto server = HttpServer::start("127.0.0.1:0", std::move(handler), limits, std::move(door));
   if (!server) {
     ADD_FAILURE() << server.error().text();
     return nullptr;

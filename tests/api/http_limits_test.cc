@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <mutex>
 #include <thread>
 
 #include "api/http_server.h"
@@ -178,23 +179,93 @@ TEST(HttpLimits, GivesUpOnAClientThatDoesNotReadItsAnswer) {
 TEST(HttpLimits, TellsThoseOverTheLimitAndServesTheOthers) {
   HttpLimits limits;
   limits.connections = 256;
-  auto server = serve(echo, limits);
+  std::mutex mutex;
+  std::vector<HttpReply> replies;
+  const auto count = [&] {
+    std::lock_guard lock(mutex);
+    return replies.size();
+  };
+  auto server = serve(
+      [&](HttpRequest request, HttpReply reply) {
+        if (request.target.path != "/a") return echo(std::move(request), std::move(reply));
+        std::lock_guard lock(mutex);
+        replies.push_back(std::move(reply));
+      },
+      limits);
   std::vector<std::unique_ptr<Client>> clients;
   for (int i = 0; i < 300; ++i) {
     clients.push_back(std::make_unique<Client>(server->port()));
     ASSERT_TRUE(clients.back()->connected());
     ASSERT_TRUE(clients.back()->send(get("/a")));
+    // None of those before is idle any more when the next one comes.
+    for (int waited = 0; waited < kPatienceMs && i < 256 && count() <= std::size_t(i); ++waited)
+      std::this_thread::sleep_for(milliseconds(1));
   }
-  int served = 0, refused = 0;
-  for (auto& client : clients) {
-    const auto answer = client->receive();
-    served += answer.status == 200;
-    refused += answer.status == 503;
+  for (int i = 256; i < 300; ++i) {
+    const auto answer = clients[i]->receive();
+    EXPECT_EQ(answer.status, 503);
+    EXPECT_EQ(answer.code(), "too_many_connections");
+    EXPECT_TRUE(answer.has("Retry-After: 1\r\n")) << answer.head;
+    EXPECT_TRUE(clients[i]->ends());
   }
-  EXPECT_EQ(served, 256);
-  EXPECT_EQ(refused, 44);
+  ASSERT_EQ(count(), 256u);
+  for (auto& reply : replies) reply({200, "text/plain", "late", {}});
+  for (int i = 0; i < 256; ++i) EXPECT_EQ(clients[i]->receive().status, 200);
   EXPECT_EQ(server->counters().refused, 44u);
+  EXPECT_EQ(server->counters().evicted, 0u);
   EXPECT_EQ(clients[0]->ask(get("/b")).status, 200);
+  replies.clear();
+}
+
+TEST(HttpLimits, TheConnectionThatIsIdleForLongestMakesRoom) {
+  HttpLimits limits;
+  limits.connections = 3;
+  auto server = serve(echo, limits);
+  // Whoever has been answered is idle in that order: 1, 2, 0.
+  std::vector<std::unique_ptr<Client>> clients;
+  for (int i = 0; i < 3; ++i) {
+    clients.push_back(std::make_unique<Client>(server->port()));
+    EXPECT_EQ(clients.back()->ask(get("/a")).status, 200);
+  }
+  EXPECT_EQ(clients[0]->ask(get("/a")).status, 200);
+  Client fourth(server->port());
+  EXPECT_EQ(fourth.ask(get("/b")).status, 200);
+  EXPECT_TRUE(clients[1]->ends());
+  Client fifth(server->port());
+  EXPECT_EQ(fifth.ask(get("/c")).status, 200);
+  EXPECT_TRUE(clients[2]->ends());
+  EXPECT_EQ(clients[0]->ask(get("/d")).status, 200);
+  EXPECT_EQ(server->counters().evicted, 2u);
+  EXPECT_EQ(server->counters().refused, 0u);
+}
+
+TEST(HttpLimits, NobodyHoldsAllConnectionsBySayingNothing) {
+  HttpLimits limits;
+  limits.connections = 8;
+  auto server = serve(echo, limits);
+  std::vector<std::unique_ptr<Client>> silent;
+  for (int i = 0; i < 100; ++i) silent.push_back(std::make_unique<Client>(server->port()));
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(Client(server->port()).ask(get("/a")).body, "GET /a [] ") << i;
+  EXPECT_LE(server->counters().open, 8u + 1) << "one that is leaving";
+  EXPECT_EQ(server->counters().refused, 0u);
+}
+
+TEST(HttpLimits, RefusesATargetOverTheLimit) {
+  HttpLimits limits;
+  limits.target_bytes = 1000;
+  auto server = serve(echo, limits);
+  EXPECT_EQ(Client(server->port()).ask(get("/" + std::string(999, 'x'))).status, 200);
+  const std::string line = "GET /" + std::string(1000, 'x');
+  for (const std::string& request :
+       {line + " HTTP/1.1\r\nHost: x\r\n\r\n", line, "GET /a?b=" + std::string(5000, 'x')}) {
+    Client client(server->port());
+    const auto answer = client.ask(request);
+    EXPECT_EQ(answer.status, 414) << request;
+    EXPECT_EQ(answer.code(), "target_too_long");
+    EXPECT_TRUE(client.ends());
+  }
+  EXPECT_EQ(Client(server->port()).ask(std::string(20'000, 'x')).status, 431) << "no method's end";
 }
 
 }  // namespace

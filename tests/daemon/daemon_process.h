@@ -49,9 +49,9 @@ class DaemonProcess {
   /// Waits for its end.
   int wait();
 
- private:
   bool ended();
 
+ private:
   std::string errors_file_;
   pid_t pid_ = -1;
   bool ended_ = false;

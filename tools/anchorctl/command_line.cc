@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "api/bearer_token.h"
 #include "tools/anchorctl/event_options.h"
 #include "tools/anchorctl/query.h"
 #include "tools/anchorctl/read_time.h"
@@ -34,7 +35,7 @@ Status read_times(Parameters& parameters) {
 }
 
 struct Given {
-  std::string server;
+  std::string server, token_file;
   bool json = false;
   std::optional<unsigned> limit;
   double interval_s = 0.5;
@@ -49,6 +50,8 @@ void add_common(CLI::App& app, Given& given) {
   app.add_option(
       "--server", given.server,
       "ADDR:PORT of the daemon; default: ANCHORD_SERVER, else " + std::string(kDefaultServer));
+  app.add_option("--token-file", given.token_file,
+                 "file with the daemon's token, for its owner alone; default: ANCHORD_TOKEN_FILE");
   app.add_flag("--json", given.json, "print the daemon's JSON as it came");
 }
 
@@ -65,6 +68,24 @@ CLI::App& add_command(CLI::App& app, const std::string& name, const char* what,
 int wrong(const std::string& what) {
   std::fprintf(stderr, "anchorctl: %s (anchorctl --help tells more)\n", what.c_str());
   return kWrongCall;
+}
+
+/// What was given, else what the environment says, else `otherwise`.
+std::string given_or(const std::string& given, const char* variable,
+                     const std::string& otherwise = {}) {
+  if (!given.empty()) return given;
+  const char* value = std::getenv(variable);
+  return value && *value ? value : otherwise;
+}
+
+Result<ServerAddress> server_of(const Given& given) {
+  auto server = parse_server(given_or(given.server, "ANCHORD_SERVER", kDefaultServer));
+  const std::string file = given_or(given.token_file, "ANCHORD_TOKEN_FILE");
+  if (!server || file.empty()) return server;
+  const auto token = BearerToken::read(file);
+  if (!token) return token.error();
+  server->authorization = token->authorization();
+  return server;
 }
 
 std::variant<Call, int> to_call(const std::string& command, const Given& given,
@@ -89,10 +110,7 @@ std::variant<Call, int> to_call(const std::string& command, const Given& given,
     return wrong("object: watch takes a class, a place or other attributes");
   }
 
-  std::string address = given.server;
-  const char* variable = std::getenv("ANCHORD_SERVER");
-  if (address.empty()) address = variable && *variable ? variable : kDefaultServer;
-  auto server = parse_server(address);
+  auto server = server_of(given);
   if (!server) return wrong(server.error().text());
 
   Call call;

@@ -30,8 +30,9 @@ struct Call {
   LogCall log;  ///< export, rebuild
 };
 
-/// Reads the arguments, and ANCHORD_SERVER for a missing --server. If there is nothing to do, the
-/// exit status: 0 after help, kWrongCall after one line on standard error about what is wrong.
+/// Reads the arguments, ANCHORD_SERVER and ANCHORD_TOKEN_FILE for what is missing, and the token.
+/// If there is nothing to do, the exit status: 0 after help, kWrongCall after one line on standard
+/// error about what is wrong.
 std::variant<Call, int> parse_command_line(int argc, const char* const* argv);
 
 }  // namespace anchord

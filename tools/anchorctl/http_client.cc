@@ -39,6 +39,8 @@ class Exchange {
     request_.set(http::field::user_agent, "anchorctl");
     request_.set(http::field::accept, "application/json");
     request_.set(http::field::connection, "close");
+    if (!server.authorization.empty())
+      request_.set(http::field::authorization, server.authorization);
     if (!request.body.empty()) request_.set(http::field::content_type, "application/json");
     request_.prepare_payload();
     parser_.body_limit(kLargestBody);

@@ -11,6 +11,7 @@ namespace anchord {
 struct ServerAddress {
   std::string host;  ///< a name or an address, IPv6 without its brackets
   std::string port;
+  std::string authorization = {};  ///< that field's value; empty: none is sent
 
   /// "127.0.0.1:7780", "[::1]:7780".
   std::string text() const;
