@@ -65,12 +65,12 @@ Service::Service(Knowledge knowledge, const ServiceOptions& options, std::unique
     // While a long history is restored the start may take as long as it goes on.
     sd_notify(0, ready_ ? "WATCHDOG=1" : "WATCHDOG=1\nEXTEND_TIMEOUT_USEC=60000000");
   };
-  const World now = world;
+  const World empty = world;
   auto checkpointer =
-      std::make_unique<Checkpointer>(options.data_directory, now, options.checkpoint_interval);
+      std::make_unique<Checkpointer>(options.data_directory, empty, options.checkpoint_interval);
   journal_ = std::make_unique<Journal>(std::move(world), std::move(log), statistics_, times_,
                                        std::move(hooks), std::move(checkpointer));
-  archive_ = std::make_unique<Archive>(*journal_, options.data_directory, now);
+  archive_ = std::make_unique<Archive>(*journal_, options.data_directory, empty);
   verifications_ = std::make_unique<Verifications>(
       *journal_, robots_, [this](const Task& task, Utime now) { lcm_->publish_task(task, now); });
 }

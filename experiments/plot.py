@@ -102,9 +102,16 @@ def legend(names: list[str], width: float) -> tuple[list[str], float]:
 
 
 def figure(panels: list[Panel]) -> str:
-    """Panels side by side under one legend."""
+    """Panels side by side under one legend, or each under its own where their curves differ."""
     width = WIDTH * len(panels)
-    names, top = legend(panels[0].names(), width)
+    if all(panel.names() == panels[0].names() for panel in panels):
+        names, top = legend(panels[0].names(), width)
+    else:
+        names, top = [], 0.0
+        for k, panel in enumerate(panels):
+            own, bottom = legend(panel.names(), WIDTH)
+            names += [f'<g transform="translate({k * WIDTH},0)">', *own, "</g>"]
+            top = max(top, bottom)
     height = HEIGHT + top + 2
     out = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height:g}" '
