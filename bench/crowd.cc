@@ -90,7 +90,7 @@ Crowd simulate(const CrowdParameters& p, std::uint64_t seed) {
   return crowd;
 }
 
-Knowledge crowd_knowledge(const CrowdParameters& p) {
+std::string crowd_configuration(const CrowdParameters& p) {
   char text[1024];
   std::snprintf(text, sizeof text, R"({
     "world": {"dimensions": 2, "bounds": {"min": [%g, %g], "max": [%g, %g]}},
@@ -103,7 +103,11 @@ Knowledge crowd_knowledge(const CrowdParameters& p) {
                 -p.side_m, -p.side_m, 2 * p.side_m, 2 * p.side_m, p.acceleration_psd,
                 p.speed_deviation * p.speed_deviation, p.detection_probability,
                 1 / (p.side_m * p.side_m));
-  const auto configuration = parse_configuration(text);
+  return text;
+}
+
+Knowledge crowd_knowledge(const CrowdParameters& p) {
+  const auto configuration = parse_configuration(crowd_configuration(p));
   if (configuration.ok()) return configuration.knowledge();
   for (const auto& mistake : configuration.mistakes())
     std::fprintf(stderr, "crowd: %s\n", mistake.text().c_str());

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "core/frame.h"
@@ -49,6 +50,7 @@ Crowd simulate(const CrowdParameters& parameters, std::uint64_t seed);
 
 /// What a configuration for such a scene says: its true noise, motion, detection probability and
 /// clutter; few arrivals and departures; all limits at their defaults.
+std::string crowd_configuration(const CrowdParameters& parameters);
 Knowledge crowd_knowledge(const CrowdParameters& parameters);
 
 }  // namespace anchord::bench

@@ -1,5 +1,9 @@
 // Like objects in a square: how long an update takes, and how often identities are confused.
-// Arguments: numbers of objects, instead of those that have a target.
+// Arguments: numbers of objects, instead of those that have a target; or
+//
+//     crowd_bench --write OBJECTS SIDE_M SEED PREFIX
+//
+// which writes such a scene into files (bench/crowd_files.h).
 
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +13,7 @@
 #include "anchoring/reading.h"
 #include "anchoring/world.h"
 #include "bench/crowd.h"
+#include "bench/crowd_files.h"
 #include "bench/identity.h"
 #include "bench/timing.h"
 
@@ -39,10 +44,23 @@ std::string target(int objects) {
   return "";
 }
 
-void run(int objects, double side_m, std::uint64_t seed) {
+anchord::bench::CrowdParameters scene_of(int objects, double side_m) {
   anchord::bench::CrowdParameters parameters;
   parameters.side_m = side_m;
   parameters.objects = objects;
+  return parameters;
+}
+
+int write(int objects, double side_m, std::uint64_t seed, const std::string& prefix) {
+  const anchord::bench::CrowdParameters parameters = scene_of(objects, side_m);
+  const anchord::bench::Crowd crowd = anchord::bench::simulate(parameters, seed);
+  if (anchord::bench::write_crowd(crowd, parameters, kFirstCounted, prefix)) return EXIT_SUCCESS;
+  std::fprintf(stderr, "cannot write %s.*\n", prefix.c_str());
+  return EXIT_FAILURE;
+}
+
+void run(int objects, double side_m, std::uint64_t seed) {
+  const anchord::bench::CrowdParameters parameters = scene_of(objects, side_m);
   const anchord::bench::Crowd crowd = anchord::bench::simulate(parameters, seed);
   anchord::World world(anchord::bench::crowd_knowledge(parameters));
   anchord::bench::IdentityCount count(kRadius);
@@ -71,6 +89,9 @@ void run(int objects, double side_m, std::uint64_t seed) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 6 && std::string(argv[1]) == "--write")
+    return write(std::atoi(argv[2]), std::atof(argv[3]), std::strtoull(argv[4], nullptr, 10),
+                 argv[5]);
   const anchord::bench::CrowdParameters defaults;
   struct Scene {
     int objects;
