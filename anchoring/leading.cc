@@ -1,6 +1,5 @@
 #include "anchoring/leading.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "anchoring/reading.h"
@@ -10,11 +9,7 @@
 namespace anchord {
 namespace {
 
-/// How many times what the world with the names kept weighs another must weigh to be shown: what
-/// keeps the wrong names for long seldom gets the right ones again without a change more. Chosen on
-/// simulated crowds that are seen once a second; at 30 Hz up to 30 it hardly matters.
-constexpr double kClearly = 0.6931471805599453;  // ln 2
-const double kClearlyTwin = std::log(kClearlyOther);
+const double kClearly = std::log(kClearlyOther);
 /// Positions closer than this, in standard deviations of their difference, are the same spot.
 constexpr double kSameSpot = 1;
 
@@ -32,13 +27,6 @@ class Names {
       if (stands(a, h.leaf[a]) ? apart(leaf(a, shown), leaf(a, h.leaf[a])) : taken(h, a))
         return false;
     }
-    return true;
-  }
-
-  /// Whether two hypotheses have the same objects.
-  bool same_stand(const Hypothesis& g, const Hypothesis& h) const {
-    for (std::size_t a = 0; a < h.leaf.size(); ++a)
-      if (stands(a, g.leaf[a]) != stands(a, h.leaf[a])) return false;
     return true;
   }
 
@@ -93,11 +81,8 @@ int leading(const Cluster& cluster, const Background& background) {
   if (names.kept_by(best)) return 0;
   for (std::size_t h = 1; h < cluster.hypotheses.size(); ++h) {
     const Hypothesis& other = cluster.hypotheses[h];
-    if (other.log_weight + std::max(kClearly, kClearlyTwin) < best.log_weight) break;
-    const double clearly = names.same_stand(best, other) ? kClearly : kClearlyTwin;
-    if (other.log_weight + clearly >= best.log_weight && names.kept_by(other) &&
-        names.only_differ(best, other))
-      return static_cast<int>(h);
+    if (other.log_weight + kClearly < best.log_weight) break;
+    if (names.kept_by(other) && names.only_differ(best, other)) return static_cast<int>(h);
   }
   return 0;
 }

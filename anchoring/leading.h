@@ -4,9 +4,10 @@
 
 namespace anchord {
 
-/// An object that goes by another name in other worlds, and nobody else by its own, keeps the one
-/// that is shown until the other is so many times as probable: the name that is kept has less than
-/// half of the probability then, and many look only at what has more.
+/// Objects that go by other names in other worlds keep those that are shown until the others are so
+/// many times as probable: what keeps the wrong names for long seldom gets the right ones again
+/// without a change more. Chosen on simulated crowds that are seen once a second (docs/figures.md,
+/// "Crowds"); at 30 Hz up to 30 it hardly matters.
 inline constexpr double kClearlyOther = 3;
 
 /// Chooses the hypothesis of a cluster that the best world shows: the most probable one, unless

@@ -50,7 +50,7 @@ Cluster two_objects(const std::vector<World>& worlds) {
 }
 
 TEST(Leading, KeepsNamesWhileTheExchangeIsNotClearlyMoreProbable) {
-  Cluster cluster = two_objects({{0.65, {kThere, kHere}}, {0.35, {kHere, kThere}}});
+  Cluster cluster = two_objects({{0.74, {kThere, kHere}}, {0.26, {kHere, kThere}}});
   choose_leading(cluster, background());
   EXPECT_EQ(cluster.leading, 1);
   EXPECT_EQ(cluster.anchors[0].shown, kHere);
@@ -58,8 +58,8 @@ TEST(Leading, KeepsNamesWhileTheExchangeIsNotClearlyMoreProbable) {
   EXPECT_EQ(cluster.best_leaf(0)->models[0].weight, 1);
 }
 
-TEST(Leading, ChangesNamesOnceTheExchangeIsTwiceAsProbable) {
-  Cluster cluster = two_objects({{0.68, {kThere, kHere}}, {0.32, {kHere, kThere}}});
+TEST(Leading, ChangesNamesOnceTheExchangeIsThreeTimesAsProbable) {
+  Cluster cluster = two_objects({{0.76, {kThere, kHere}}, {0.24, {kHere, kThere}}});
   choose_leading(cluster, background());
   EXPECT_EQ(cluster.leading, 0);
   EXPECT_EQ(cluster.anchors[0].shown, kThere);
