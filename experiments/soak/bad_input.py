@@ -29,6 +29,10 @@ def bad_frames(good: dict, dice: random.Random) -> list[tuple[str, bytes, int]]:
     def detection(**members) -> bytes:
         return with_(lambda f: f["detections"][0].update(members))
 
+    def second(frame) -> None:
+        frame["utime"] += 1
+        frame["detections"][0]["score"] = -1
+
     text = json.dumps(base).encode()
     cut = text[: dice.randrange(1, len(text) - 1)]
     garbage = bytes(dice.randrange(256) for _ in range(dice.randrange(1, 300)))
@@ -55,7 +59,7 @@ def bad_frames(good: dict, dice: random.Random) -> list[tuple[str, bytes, int]]:
         ("unknown attribute", detection(attributes={"weight": {"heavy": 1}}), 400),
         ("20,000 detections", with_(lambda f: f.update(detections=f["detections"] * 20_000)), 400),
         ("5,000 frames", b"[" + b",".join([text] * 5000) + b"]", 413),
-        ("one bad of two", b"[" + text + b"," + detection(score=-1) + b"]", 400),
+        ("one bad of two", b"[" + text + b"," + with_(second) + b"]", 400),
         ("runs backwards", with_(lambda f: f.update(utime=good["utime"] - 1)), 409),
         ("another at the same time", with_(lambda f: f.update(utime=good["utime"])), 409),
         ("a minute late", with_(lambda f: f.update(utime=good["utime"] - 60_000_000)), 409),
