@@ -46,8 +46,7 @@ Json undetected_json(const Snapshot& snapshot, const Parameters& asked) {
 
 }  // namespace
 
-HttpResponse answer(const HttpTarget& target, const Snapshot& snapshot,
-                    const FramesAt& frames_at) {
+HttpResponse answer(const HttpTarget& target, const Snapshot& snapshot, const FramesAt& frames_at) {
   constexpr std::string_view kObject = "/v1/objects/";
   const auto result = [&]() -> Result<Json> {
     if (target.path == "/v1/objects") return answer_objects(target, snapshot);

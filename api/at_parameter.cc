@@ -25,7 +25,8 @@ Result<std::optional<Utime>> take_at(HttpTarget& target, Utime clock) {
     return invalid("at", "is given twice");
   if (text == "now") return std::optional(clock);
   const auto utime = read_utime("at", text);
-  if (!utime) return invalid("at", "must be now, or microseconds since 1970, in the years 2000 to 2100");
+  if (!utime)
+    return invalid("at", "must be now, or microseconds since 1970, in the years 2000 to 2100");
   return std::optional(*utime);
 }
 

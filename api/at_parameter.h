@@ -9,8 +9,8 @@
 namespace anchord {
 
 /// Takes the parameter `at` out of a question: the time for which it is asked, microseconds since
-/// 1970, or `now`, which is `clock`. Nothing: it has none. kInvalid: it stands there twice, or is no
-/// time of the years 2000 to 2100.
+/// 1970, or `now`, which is `clock`. Nothing: it has none. kInvalid: it stands there twice, or is
+/// no time of the years 2000 to 2100.
 Result<std::optional<Utime>> take_at(HttpTarget& target, Utime clock);
 
 /// A time as such a parameter gives it; `name` for the refusal.

@@ -93,9 +93,8 @@ Result<Json> answer_hypotheses(const HttpTarget& target, const Snapshot& snapsho
       if (world.leaf[c] == 0) continue;
       const Cluster& cluster = *belief.clusters[c];
       for (std::size_t a = 0; a < cluster.anchors.size(); ++a) {
-        Json d =
-            difference(*cluster.anchors[a].anchor, leaf_in(cluster, 0, a, at, background),
-                       leaf_in(cluster, world.leaf[c], a, at, background), background);
+        Json d = difference(*cluster.anchors[a].anchor, leaf_in(cluster, 0, a, at, background),
+                            leaf_in(cluster, world.leaf[c], a, at, background), background);
         if (!d.is_null()) entry["differs"].push_back(std::move(d));
       }
     }

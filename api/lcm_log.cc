@@ -112,8 +112,7 @@ Result<std::optional<std::variant<Frame, Event, std::string>>> LcmLogReader::nex
   if (!message) return message.error();
   if (!*message) return std::optional<Item>();
   const auto& [channel, data] = **message;
-  if (channel == kReplayChannel)
-    return std::optional<Item>(std::string(data.begin(), data.end()));
+  if (channel == kReplayChannel) return std::optional<Item>(std::string(data.begin(), data.end()));
   if (channel == kEventChannel) {
     auto event = decode_event(data);
     if (!event) return at_event(event.error());

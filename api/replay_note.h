@@ -15,7 +15,8 @@ namespace anchord {
 /// belief: a line of JSON among the frames' lines, or a message on kReplayChannel of an LCM log.
 ///
 ///     {"configuration": {...}}             from here on this one is in force
-///     {"state": {"checkpoint": "base64", "recent": [{"frame": {...}, "work": N}, {"event": {...}}]}}
+///     {"state": {"checkpoint": "base64", "recent": [{"frame": {...}, "work": N}, {"event":
+///     {...}}]}}
 ///     {"next": {"number": N, "work": N}}   of the frame or event that follows
 struct ReplayNote {
   /// Where a span begins that is not the log's beginning: a checkpoint (anchoring/checkpoint.h),

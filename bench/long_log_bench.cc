@@ -3,9 +3,9 @@
 //
 //     long_log_bench [FRAMES [DIR]]
 //
-// Makes a log of FRAMES frames (100,000), ten a second of a still camera that sees three of a home's
-// objects move now and then, in DIR (a folder that goes at the end); one that is there already is
-// taken as it is.
+// Makes a log of FRAMES frames (100,000), ten a second of a still camera that sees three of a
+// home's objects move now and then, in DIR (a folder that goes at the end); one that is there
+// already is taken as it is.
 
 #include <spdlog/spdlog.h>
 
@@ -55,9 +55,9 @@ Frame frame_at(std::int64_t k) {
     const auto at = static_cast<double>((k + i * 2000) / 6000);
     const double noise = 0.01 * std::sin(static_cast<double>(k * 7 + i));
     Detection& seen = frame.detections.emplace_back();
-    seen.measurement =
-        CartesianMeasurement{{5 + 4 * std::sin(at + i) + noise, 4 + 3 * std::cos(at * 1.3 + i), 0.9},
-                             {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4}};
+    seen.measurement = CartesianMeasurement{
+        {5 + 4 * std::sin(at + i) + noise, 4 + 3 * std::cos(at * 1.3 + i), 0.9},
+        {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4}};
     seen.attributes = {{"class", SymbolReport{{{kClasses[i], 0.9}}}}};
   }
   return frame;
@@ -113,7 +113,8 @@ double start(const std::string& directory, const Knowledge& knowledge) {
 int main(int argc, char** argv) {
   spdlog::set_level(spdlog::level::warn);
   const std::int64_t frames = argc > 1 ? std::atoll(argv[1]) : 100'000;
-  std::string directory = argc > 2 ? argv[2] : "/tmp/anchord-long-XXXXXX";
+  std::string directory =
+      argc > 2 ? argv[2] : std::filesystem::temp_directory_path() / "anchord-long-XXXXXX";
   if (argc <= 2 && !mkdtemp(directory.data())) fail("cannot make a folder");
   const auto configuration = parse_configuration(kScene);
   if (!configuration.ok()) fail(configuration.mistakes().front().text());

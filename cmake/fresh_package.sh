@@ -60,8 +60,9 @@ offline bash -euc '
   ip link set lo multicast on
   ip route add 224.0.0.0/4 dev lo
   cd /
-  anchord --data /var/lib/anchord 2>/tmp/log &
-  until grep -q "ready: " /tmp/log; do kill -0 $! || { cat /tmp/log; exit 1; }; sleep 0.1; done
+  log=$(mktemp)
+  anchord --data /var/lib/anchord 2>"$log" &
+  until grep -q "ready: " "$log"; do kill -0 $! || { cat "$log"; exit 1; }; sleep 0.1; done
   anchorctl status
   kill $! && wait $!
   anchord --http 0.0.0.0:7780 && exit 1

@@ -76,9 +76,8 @@ void Archive::answer(const HttpTarget& target, std::optional<Utime> at, const Ht
   if (at && *at >= now.belief->utime) now.ahead = *at;
   if (!at || now.ahead > 0) {
     if (!target.path.starts_with(kObject)) return reply(anchord::answer(target, now));
-    return post(lookups_, reply, [this, target, now] {
-      return anchord::answer(target, now, frames_at(lookup_));
-    });
+    return post(lookups_, reply,
+                [this, target, now] { return anchord::answer(target, now, frames_at(lookup_)); });
   }
   post(folds_, reply, [this, target, at, least = journal_.logged_frames()] {
     const auto then = past_.at(*at, least);
@@ -128,11 +127,11 @@ HttpResponse Archive::history(const HttpTarget& target, std::optional<Utime> at)
     samples->push_back(*newest);
   Json list = Json::array();
   for (const HistorySample& sample : *samples) list.push_back(json_of(sample, background.dims));
-  return {200,
-          "application/json",
-          Json{{"utime", now.belief->utime}, {"object", span->object}, {"samples", list}}.dump() +
-              "\n",
-          {}};
+  return {
+      200,
+      "application/json",
+      Json{{"utime", now.belief->utime}, {"object", span->object}, {"samples", list}}.dump() + "\n",
+      {}};
 }
 
 }  // namespace anchord

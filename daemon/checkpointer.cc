@@ -17,8 +17,7 @@ constexpr double kShare = 0.1;
 
 /// The latest time of what is in it.
 Utime time_of(const WorldState& state, const Belief& before) {
-  return state.recent.empty() ? before.utime
-                              : std::max(before.utime, state.recent.back().utime);
+  return state.recent.empty() ? before.utime : std::max(before.utime, state.recent.back().utime);
 }
 
 }  // namespace
@@ -83,11 +82,10 @@ void Checkpointer::write(const Taken& taken) {
   const double since_past =
       static_cast<double>(taken.sequence - last_past_) * taken.seconds_per_frame;
   const bool past = last_past_ > taken.sequence || since_past >= kPastWork;
-  const Status kept = store_->put({taken.sequence, taken.frame_checksum,
-                                   taken.background->knowledge.fingerprint,
-                                   write_checkpoint(taken.state, *taken.background),
-                                   time_of(taken.state, *taken.state.before)},
-                                  past);
+  const Status kept = store_->put(
+      {taken.sequence, taken.frame_checksum, taken.background->knowledge.fingerprint,
+       write_checkpoint(taken.state, *taken.background), time_of(taken.state, *taken.state.before)},
+      past);
   took_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!kept) return spdlog::warn("a checkpoint cannot be kept: {}", kept.error().text());
   newest_ = taken.sequence;
@@ -98,8 +96,9 @@ void Checkpointer::write(const Taken& taken) {
 void Checkpointer::look_for_base(Utime until, std::int64_t sequence) {
   if (!store_) return;
   worker_.post([this, until, sequence] {
-    auto found = sequence > 0 ? store_->oldest_from(sequence)
-                              : store_->newest_until(until, std::numeric_limits<std::int64_t>::max());
+    auto found = sequence > 0
+                     ? store_->oldest_from(sequence)
+                     : store_->newest_until(until, std::numeric_limits<std::int64_t>::max());
     if (!found || !*found) return;
     auto log = LogReader::open(directory_);
     if (!log) return;

@@ -70,8 +70,8 @@ class Checkpointer {
   std::string directory_;
   World now_;
   double interval_;
-  double since_ = 0;      ///< s of work since the last one was taken
-  double work_ = 0;       ///< s, since the start
+  double since_ = 0;        ///< s of work since the last one was taken
+  double work_ = 0;         ///< s, since the start
   std::int64_t count_ = 0;  ///< frames and events that took that
   bool demanded_ = false;
   std::unique_ptr<CheckpointStore> store_;  ///< none: it cannot be opened

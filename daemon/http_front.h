@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "api/http_server.h"
-#include "daemon/archive.h"
 #include "api/static_files.h"
+#include "daemon/archive.h"
 #include "daemon/journal.h"
 #include "daemon/robots.h"
 #include "daemon/statistics.h"

@@ -109,10 +109,10 @@ class Journal {
   std::int64_t checkpoint() const { return checkpointer_ ? checkpointer_->newest() : 0; }
   /// What the log takes on the disk. Safe from any thread.
   struct Kept {
-    std::int64_t first = 1;              ///< the oldest frame or event that it holds
-    std::int64_t used = 0, free = 0;     ///< bytes of the database
-    std::int64_t checkpoints = 0;        ///< bytes
-    double longest_pause = 0;  ///< s for which a checkpoint has held up frames, at most
+    std::int64_t first = 1;           ///< the oldest frame or event that it holds
+    std::int64_t used = 0, free = 0;  ///< bytes of the database
+    std::int64_t checkpoints = 0;     ///< bytes
+    double longest_pause = 0;         ///< s for which a checkpoint has held up frames, at most
   };
   Kept kept() const;
 

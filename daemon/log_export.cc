@@ -65,7 +65,8 @@ Result<ExportReport> export_log(const std::string& directory, Utime from, Utime 
   const Status read = log->for_each(before->next, [&](const LoggedFrame& logged) {
     // As Past has it.
     const bool event = logged.kind == LoggedFrame::Kind::kEvent;
-    const bool of_another_clock = event && newest > 0 && logged.utime - newest > from_seconds(lateness);
+    const bool of_another_clock =
+        event && newest > 0 && logged.utime - newest > from_seconds(lateness);
     const Utime order = of_another_clock ? newest : logged.utime;
     if (!event) newest = std::max(newest, logged.utime);
     if (order < from || order > to) return newest - from_seconds(lateness) <= to;
@@ -73,7 +74,8 @@ Result<ExportReport> export_log(const std::string& directory, Utime from, Utime 
     if (!accepted) return (given = accepted.error()), false;
     ReplayNote note;
     for (const LoggedConfiguration& one : *configurations)
-      if (one.first <= logged.sequence && one.first > before->next - 1) note.configuration = one.text;
+      if (one.first <= logged.sequence && one.first > before->next - 1)
+        note.configuration = one.text;
     if (note.configuration == in_force) note.configuration.clear();
     if (!note.configuration.empty()) {
       in_force = note.configuration;

@@ -89,7 +89,8 @@ Result<Past::Known> Past::nearest(Utime utime) {
     if (known.until <= utime && (!best || known.until > best->until)) best = &known;
 
   if (!checkpoints_)
-    if (auto store = CheckpointStore::open(directory_); store) checkpoints_.emplace(*std::move(store));
+    if (auto store = CheckpointStore::open(directory_); store)
+      checkpoints_.emplace(*std::move(store));
   std::int64_t before = std::numeric_limits<std::int64_t>::max();
   while (checkpoints_) {
     const auto checkpoint = checkpoints_->newest_until(utime, before);
@@ -112,8 +113,7 @@ Status Past::go_on(Known& known, Utime utime) {
   std::optional<std::int64_t> later;  ///< the first that is left out
   Utime newest = known.fold.world().belief()->utime;
   const Status read = log_->for_each(known.next, [&](const LoggedFrame& logged) {
-    const Utime lateness =
-        from_seconds(known.fold.world().background()->knowledge.max_lateness);
+    const Utime lateness = from_seconds(known.fold.world().background()->knowledge.max_lateness);
     const bool event = logged.kind == LoggedFrame::Kind::kEvent;
     const Utime order =
         event && logged.utime - newest > lateness && newest > 0 ? newest : logged.utime;

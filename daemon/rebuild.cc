@@ -55,9 +55,8 @@ Result<RebuildReport> rebuild(const std::string& directory,
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     const World& world = fold->world();
     for (const HistorySample& sample :
-         recorder.look(world.settled(), *world.background(), [](const auto&) {
-           return std::optional<HistorySample>();
-         }))
+         recorder.look(world.settled(), *world.background(),
+                       [](const auto&) { return std::optional<HistorySample>(); }))
       if (done = (*log)->put_sample(sample); !done) return false;
     if (++report.folded % kBatch != 0) return true;
     if (done = (*log)->commit(); !done) return false;

@@ -53,8 +53,7 @@ Status Retention::look(FrameLog& log, Checkpointer* checkpointer, Utime newest) 
 
 Status Retention::thin(FrameLog& log, Utime newest) {
   const HistoryGrain& tier = kHistoryGrains[grain_++ % kHistoryGrains.size()];
-  const auto thinned =
-      log.thin_history(tier.grain, newest - from_seconds(tier.age), kRowsAtOnce);
+  const auto thinned = log.thin_history(tier.grain, newest - from_seconds(tier.age), kRowsAtOnce);
   return thinned ? Status(Done{}) : Status(thinned.error());
 }
 

@@ -30,7 +30,7 @@ class Retention {
 
   LogLimits limits_;
   int pause_ = 0;
-  bool dropping_ = true;  ///< a base may stand there from before
+  bool dropping_ = true;   ///< a base may stand there from before
   std::size_t grain_ = 0;  ///< whose turn it is
 };
 

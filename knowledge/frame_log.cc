@@ -271,7 +271,8 @@ Status FrameLog::for_each(std::int64_t from_sequence,
     stopped = !callback(frame);
     return !stopped;
   });
-  if (!read && read.error().code == ErrorCode::kConflict) return store_->found(read.error().message);
+  if (!read && read.error().code == ErrorCode::kConflict)
+    return store_->found(read.error().message);
   if (!read) return store_->failed_to("read the frame log", read.error());
   if (!stopped && next <= store_->last_sequence)
     return store_->found("frame " + std::to_string(next) + " is missing");

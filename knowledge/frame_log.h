@@ -89,8 +89,9 @@ class FrameLog {
   Status for_each_task(
       const std::function<bool(std::int64_t id, std::span<const std::uint8_t>)>& callback);
 
-  /// Every frame and event with `sequence >= from_sequence`, from first_sequence() on, in order of sequence, until
-  /// the callback says false. The callback must not append. kIo: what follows is damaged.
+  /// Every frame and event with `sequence >= from_sequence`, from first_sequence() on, in order of
+  /// sequence, until the callback says false. The callback must not append. kIo: what follows is
+  /// damaged.
   Status for_each(std::int64_t from_sequence,
                   const std::function<bool(const LoggedFrame&)>& callback);
   /// Reads all that the log holds; the log must outlive it.

@@ -91,19 +91,19 @@ Status FrameLog::forget_history(Utime from) {
 
 Status FrameLog::put_base(const LogBase& base) {
   const StoredCheckpoint& c = base.checkpoint;
-  const Status kept = write(
-      "keep what the log's beginning was folded into",
-      "INSERT INTO base (sequence, first_kept, utime, frame_checksum, configuration, bytes, "
-      "checksum) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
-      [&](Statement& statement) {
-        statement.bind(1, c.sequence)
-            .bind(2, base.first_kept)
-            .bind(3, c.utime)
-            .bind(4, static_cast<std::int64_t>(c.frame_checksum))
-            .bind(5, static_cast<std::int64_t>(c.configuration))
-            .bind(6, std::span<const std::uint8_t>(c.bytes))
-            .bind(7, static_cast<std::int64_t>(checksum(base)));
-      });
+  const Status kept =
+      write("keep what the log's beginning was folded into",
+            "INSERT INTO base (sequence, first_kept, utime, frame_checksum, configuration, bytes, "
+            "checksum) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
+            [&](Statement& statement) {
+              statement.bind(1, c.sequence)
+                  .bind(2, base.first_kept)
+                  .bind(3, c.utime)
+                  .bind(4, static_cast<std::int64_t>(c.frame_checksum))
+                  .bind(5, static_cast<std::int64_t>(c.configuration))
+                  .bind(6, std::span<const std::uint8_t>(c.bytes))
+                  .bind(7, static_cast<std::int64_t>(checksum(base)));
+            });
   if (!kept) return kept;
   const Status alone = write("drop an older base", "DELETE FROM base WHERE sequence < ?1",
                              [&](Statement& s) { s.bind(1, c.sequence); });
@@ -116,12 +116,10 @@ Status FrameLog::put_base(const LogBase& base) {
 }
 
 Result<std::int64_t> FrameLog::drop(std::int64_t most) {
-  const auto kept =
-      store_->database.read_integer("SELECT coalesce(max(first_kept), 1) FROM base");
+  const auto kept = store_->database.read_integer("SELECT coalesce(max(first_kept), 1) FROM base");
   if (!kept) return store_->failed_to("read the frame log", kept.error());
   // Never the last one: by it is seen that the log has come to what was acknowledged.
-  const std::int64_t next =
-      std::min({*kept, store_->first_sequence + most, store_->last_sequence});
+  const std::int64_t next = std::min({*kept, store_->first_sequence + most, store_->last_sequence});
   const std::int64_t count = next - store_->first_sequence;
   if (count <= 0) return std::int64_t{0};
   const Status dropped = write("drop old frames", "DELETE FROM frames WHERE sequence < ?1",

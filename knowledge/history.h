@@ -12,8 +12,8 @@ namespace anchord {
 struct HistorySample {
   std::string object;  ///< its name
   Utime utime = 0;
-  double p = 0;              ///< that it exists; 0: it was given up
-  std::string place;         ///< the deepest one with half of its density; empty: none
+  double p = 0;                      ///< that it exists; 0: it was given up
+  std::string place;                 ///< the deepest one with half of its density; empty: none
   std::array<double, 3> position{};  ///< mean of its density, map frame, m
   double spread = 0;  ///< root mean square distance from that along an axis of the plane, m
   bool operator==(const HistorySample&) const = default;

@@ -72,10 +72,10 @@ std::uint32_t checksum(const LoggedConfiguration& configuration) {
 
 std::uint32_t checksum(const LogBase& base) {
   const StoredCheckpoint& c = base.checkpoint;
-  const std::string numbers =
-      std::to_string(c.sequence) + " " + std::to_string(base.first_kept) + " " +
-      std::to_string(c.utime) + " " + std::to_string(c.frame_checksum) + " " +
-      std::to_string(c.configuration) + " " + std::to_string(checksum(c));
+  const std::string numbers = std::to_string(c.sequence) + " " + std::to_string(base.first_kept) +
+                              " " + std::to_string(c.utime) + " " +
+                              std::to_string(c.frame_checksum) + " " +
+                              std::to_string(c.configuration) + " " + std::to_string(checksum(c));
   return crc_of(numbers.data(), numbers.size());
 }
 
@@ -110,9 +110,8 @@ Result<std::int64_t> LogReader::first_sequence() {
 Status LogReader::for_each(std::int64_t from,
                            const std::function<bool(const LoggedFrame&)>& callback) {
   auto statement = Statement::prepare(
-      *database_,
-      std::string(kFrameColumns) + "WHERE sequence >= ?1 ORDER BY sequence LIMIT " +
-          std::to_string(kChunk));
+      *database_, std::string(kFrameColumns) + "WHERE sequence >= ?1 ORDER BY sequence LIMIT " +
+                      std::to_string(kChunk));
   if (!statement) return failed(statement.error());
   std::vector<LoggedFrame> chunk;
   for (std::int64_t next = from;;) {
@@ -199,8 +198,9 @@ Result<std::optional<LogBase>> LogReader::base() {
   const auto bytes = statement->bytes(5);
   base.checkpoint.bytes.assign(bytes.begin(), bytes.end());
   if (statement->integer(6) != checksum(base))
-    return Error{ErrorCode::kConflict, "", "what the log's beginning was folded into is not as it "
-                                           "was written"};
+    return Error{ErrorCode::kConflict, "",
+                 "what the log's beginning was folded into is not as it "
+                 "was written"};
   return std::optional(std::move(base));
 }
 
@@ -214,8 +214,8 @@ Result<std::vector<HistorySample>> LogReader::history(const HistorySpan& span) {
   // Of more than may be given, one in each stretch of time, and where the place changes.
   const std::int64_t most = std::max<std::int64_t>(span.most, 1);
   auto statement = Statement::prepare(
-      *database_, std::string(kSampleColumns) +
-                      "WHERE object = ?1 AND utime BETWEEN ?2 AND ?3 ORDER BY utime");
+      *database_,
+      std::string(kSampleColumns) + "WHERE object = ?1 AND utime BETWEEN ?2 AND ?3 ORDER BY utime");
   if (!statement) return failed(statement.error());
   statement->bind(1, std::string_view(span.object)).bind(2, span.from).bind(3, span.to);
   std::vector<HistorySample> out;

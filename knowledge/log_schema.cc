@@ -128,8 +128,8 @@ Status upgrade(Database& database) {
   auto transaction = Transaction::begin(database);
   if (!transaction) return transaction.error();
   const std::string sql = (*version < 2 ? kFromVersion1 : std::string()) +
-                          (*version < 3 ? kFromVersion2 : "") + (*version < 4 ? kFromVersion3 : "") +
-                          kFromVersion4 + kSinceVersion5 +
+                          (*version < 3 ? kFromVersion2 : "") +
+                          (*version < 4 ? kFromVersion3 : "") + kFromVersion4 + kSinceVersion5 +
                           ("PRAGMA user_version=" + std::to_string(kLogVersion));
   if (auto made = database.execute(sql); !made) return made;
   return transaction->commit();

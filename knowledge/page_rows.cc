@@ -1,7 +1,7 @@
 #include "knowledge/page_rows.h"
 
-#include <bit>
 #include <algorithm>
+#include <bit>
 #include <optional>
 
 namespace anchord {

@@ -46,8 +46,8 @@ std::optional<HistorySample> sample_in(Row row) {
   out.object = row[1].text();
   out.utime = row[2].integer;
   out.place = row[4].text();
-  double* const numbers[] = {&out.p, nullptr, &out.position[0], &out.position[1],
-                             &out.position[2], &out.spread};
+  double* const numbers[] = {&out.p,           nullptr,          &out.position[0],
+                             &out.position[1], &out.position[2], &out.spread};
   for (std::size_t i = 0; i < 6; ++i) {
     if (i == 1) continue;
     const auto number = number_in(row[3 + i]);

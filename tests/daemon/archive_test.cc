@@ -103,8 +103,8 @@ TEST_F(ArchiveTest, AHistorySaysWhenItWasWhere) {
     EXPECT_EQ(then["answers"][0]["p"], sample["p"]);
     EXPECT_EQ(then["answers"][0]["position"], sample["position"]);
   }
-  const auto part = json::parse(
-      body("/v1/history?object=cup-1&from=" + utime(10) + "&to=" + utime(50)));
+  const auto part =
+      json::parse(body("/v1/history?object=cup-1&from=" + utime(10) + "&to=" + utime(50)));
   for (const auto& sample : part["samples"]) {
     EXPECT_GE(sample["utime"].get<Utime>(), moving_cup(10).utime);
     EXPECT_LE(sample["utime"].get<Utime>(), moving_cup(50).utime);

@@ -25,8 +25,7 @@ class CheckpointerTest : public ::testing::Test {
     auto log = FrameLog::open(folder_ / "data");
     EXPECT_TRUE(log.ok());
     World world(knowledge);
-    auto checkpointer =
-        std::make_unique<Checkpointer>(folder_ / "data", world, kEachBatch);
+    auto checkpointer = std::make_unique<Checkpointer>(folder_ / "data", world, kEachBatch);
     Journal::Hooks hooks;
     hooks.alive = [this] { ++folded_; };
     auto journal = std::make_unique<Journal>(std::move(world), *std::move(log), statistics_, times_,

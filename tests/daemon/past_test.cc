@@ -123,7 +123,8 @@ TEST_F(PastTest, HoldsEventsAsTheyWereTaken) {
   for (int i = 1; i < 20; ++i) ASSERT_TRUE(send(frame_number(i)));
   ASSERT_TRUE(tell(grasp(15)));
   for (int i = 20; i < 40; ++i) ASSERT_TRUE(send(frame_number(i)));
-  for (const int i : {14, 15, 16, 30}) EXPECT_EQ(at(frame_number(i).utime), replay(frame_number(i).utime)) << i;
+  for (const int i : {14, 15, 16, 30})
+    EXPECT_EQ(at(frame_number(i).utime), replay(frame_number(i).utime)) << i;
 }
 
 TEST_F(PastTest, GoesAlongATimeLineThatGrows) {

@@ -30,9 +30,9 @@ class RetentionTest : public ::testing::Test {
     auto log = FrameLog::open(folder_ / "data");
     ASSERT_TRUE(log.ok());
     now_.emplace(knowledge);
-    journal_ = std::make_unique<Journal>(
-        *now_, *std::move(log), statistics_, times_, Journal::Hooks{},
-        std::make_unique<Checkpointer>(folder_ / "data", *now_, 0));
+    journal_ =
+        std::make_unique<Journal>(*now_, *std::move(log), statistics_, times_, Journal::Hooks{},
+                                  std::make_unique<Checkpointer>(folder_ / "data", *now_, 0));
     ASSERT_TRUE(journal_->restore(std::atomic<bool>{false}).ok());
     journal_->start();
   }

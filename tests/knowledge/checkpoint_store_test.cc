@@ -68,7 +68,8 @@ TEST_F(CheckpointStoreTest, TakesOverThoseOfVersion1) {
                               "frame_checksum INTEGER NOT NULL, configuration INTEGER NOT NULL, "
                               "checksum INTEGER NOT NULL, bytes BLOB NOT NULL) STRICT;"
                               "INSERT INTO checkpoints VALUES (5, 11, 7, " +
-                              std::to_string(checksum(checkpoint(5))) + ", zeroblob(5000));"
+                              std::to_string(checksum(checkpoint(5))) +
+                              ", zeroblob(5000));"
                               "PRAGMA user_version=1")
                     .ok());
     auto insert = sqlite::Statement::prepare(*database, "UPDATE checkpoints SET bytes = ?1");

@@ -123,10 +123,9 @@ TEST_F(FrameLogTest, BringsVersion2UpToDate) {
     ASSERT_TRUE(log->append(frame_number(1)).ok());
     ASSERT_TRUE(log->commit().ok());
   }
-  tamper(
-      kToVersion4 +
-      "ALTER TABLE frames DROP COLUMN checksum; ALTER TABLE frames DROP COLUMN work;"
-      "PRAGMA user_version=2");
+  tamper(kToVersion4 +
+         "ALTER TABLE frames DROP COLUMN checksum; ALTER TABLE frames DROP COLUMN work;"
+         "PRAGMA user_version=2");
   auto log = open();
   EXPECT_EQ(all(*log), std::vector<LoggedFrame>{frame_number(1)});
   LoggedFrame bounded = frame_number(2);
@@ -142,13 +141,12 @@ TEST_F(FrameLogTest, BringsVersion1UpToDate) {
     ASSERT_TRUE(log->commit().ok());
   }
   // As the first version made it.
-  tamper(
-      kToVersion4 +
-      "DROP TABLE tasks; DROP INDEX events_by_time; DROP INDEX frames_by_sensor;"
-      "ALTER TABLE frames DROP COLUMN kind; ALTER TABLE frames DROP COLUMN work;"
-      "ALTER TABLE frames DROP COLUMN checksum;"
-      "CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime);"
-      "PRAGMA user_version=1");
+  tamper(kToVersion4 +
+         "DROP TABLE tasks; DROP INDEX events_by_time; DROP INDEX frames_by_sensor;"
+         "ALTER TABLE frames DROP COLUMN kind; ALTER TABLE frames DROP COLUMN work;"
+         "ALTER TABLE frames DROP COLUMN checksum;"
+         "CREATE UNIQUE INDEX frames_by_sensor ON frames (robot, sensor, utime);"
+         "PRAGMA user_version=1");
   for (int time = 0; time < 2; ++time) {
     auto log = open();
     EXPECT_EQ(all(*log), std::vector<LoggedFrame>{frame_number(1)});

@@ -39,8 +39,9 @@ int main(int argc, char** argv) {
   std::string config, input, output = "-", stats;
   bool no_timing = false, quiet = false;
   anchord::ReplayOptions options;
-  app.add_option("--config", config,
-                 "configuration of the world; an exported log has its own, which hold without this");
+  app.add_option(
+      "--config", config,
+      "configuration of the world; an exported log has its own, which hold without this");
   app.add_option("--input", input,
                  "frames and events: JSON lines, an LCM log (.lcm, .lcmlog), or -")
       ->required();

@@ -17,7 +17,7 @@ struct ReplayOptions {
   WorldLineOptions line;
   bool timing = true;                 ///< write `elapsed_us`
   std::optional<std::uint64_t> work;  ///< bound on what folding a frame may take; see Effort
-  bool own_configuration = true;  ///< false: those that an exported log names are in force
+  bool own_configuration = true;      ///< false: those that an exported log names are in force
 };
 
 /// What a replay did, for STATS.json.

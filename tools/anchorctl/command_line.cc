@@ -151,8 +151,8 @@ std::variant<Call, int> parse_command_line(int argc, const char* const* argv) {
   add_command(app, "hypotheses", "the most probable worlds, and in what they differ", "", given)
       .add_option("--limit", given.limit, "that many worlds")
       ->check(CLI::Range(1u, 1'000'000u));
-  add_command(app, "history", "where an object was believed to be; --from TIME, --to TIME", "OBJECT",
-              given);
+  add_command(app, "history", "where an object was believed to be; --from TIME, --to TIME",
+              "OBJECT", given);
   CLI::App& watching = add_command(app, "watch", "shows the objects as they change; Ctrl-C ends it",
                                    "[CLASS]", given);
   watching.add_option("--interval", given.interval_s, "seconds from one look to the next")

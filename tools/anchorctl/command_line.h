@@ -16,7 +16,8 @@ inline constexpr int kFailed = 1, kWrongCall = 2;
 
 /// One call of the program.
 struct Call {
-  /// where, objects, count, hypotheses, history, watch, status, verify, repair, export, rebuild; event for all that tell one.
+  /// where, objects, count, hypotheses, history, watch, status, verify, repair, export, rebuild;
+  /// event for all that tell one.
   std::string command;
   ServerAddress server;
   HttpCall asked;     ///< of the daemon

@@ -9,8 +9,8 @@ std::string history_text(const Json& answer, const Style& style) {
   for (const Json& sample : items(answer, "samples")) {
     const auto p = number(sample, "p");
     const auto spread = number(sample, "spread");
-    const std::string where = position(numbers(sample, "position")) +
-                              (spread ? " \u00b1" + decimal(*spread) : "");
+    const std::string where =
+        position(numbers(sample, "position")) + (spread ? " \u00b1" + decimal(*spread) : "");
     const bool gone = p.value_or(1) <= 0;
     table.add({time_near(utime(sample, "utime"), newest), gone ? "gone" : probability(p),
                gone ? "" : text(sample, "place", "elsewhere"), gone ? "" : where},

@@ -95,8 +95,7 @@ Result<std::string> rebuild_log(const LogCall& call) {
     const int now = static_cast<int>(100 * done / all);
     if (now == percent) return;
     percent = now;
-    std::fprintf(stderr, "anchorctl: %d %% of %lld frames\n", percent,
-                 static_cast<long long>(all));
+    std::fprintf(stderr, "anchorctl: %d %% of %lld frames\n", percent, static_cast<long long>(all));
   });
   if (!report) return report.error();
   return "folded " + std::to_string(report->folded) + " frames and events anew, from number " +

@@ -49,7 +49,7 @@ std::optional<Utime> ago(const std::string& text, Utime now) {
   const struct {
     const char* name;
     double seconds;
-  } units[] = {{"s", 1},       {"min", 60},    {"h", 3600},      {"hours", 3600},
+  } units[] = {{"s", 1},       {"min", 60},     {"h", 3600},    {"hours", 3600},
                {"hour", 3600}, {"days", 86400}, {"day", 86400}, {"minutes", 60}};
   for (const auto& [name, seconds] : units)
     if (unit == name) return now - from_seconds(number * seconds);
