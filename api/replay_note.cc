@@ -93,7 +93,7 @@ Result<ReplayNote> note_from_json(const json& note, int dims) {
     if (!next.is_object()) return invalid("next", "must be an object");
     for (const char* name : {"number", "work"}) {
       if (!next.contains(name)) continue;
-      if (!next[name].is_number_unsigned())
+      if (!next[name].is_number_integer() || next[name].get<std::int64_t>() < 0)
         return invalid(std::string("next.") + name, "must be a whole number of at least 0");
     }
     if (next.contains("number")) out.number = next["number"].get<std::int64_t>();

@@ -43,8 +43,8 @@ void add_log_commands(CLI::App& app, LogCall& call) {
       *app.add_subcommand("export", "writes a span of the frame log, for anchor-replay");
   exporting.footer(
       "A daemon may run in the directory. The file says itself under which configurations the\n"
-      "frames came, and what was believed before them: anchor-replay --input FILE comes to the\n"
-      "belief that the daemon had. TIME: 2026-11-22 18:00, yesterday 18:00, 20 min ago, ...\n");
+      "frames came, and what was believed before them: anchor-replay comes to the belief that the\n"
+      "daemon had. TIME: 2026-11-22 18:00, yesterday 18:00, 20 min ago, ...\n");
   exporting.add_option("DIR", call.directory, "the daemon's data directory")->required();
   exporting.add_option("--from", call.from, "TIME from which on; default: all that there is");
   exporting.add_option("--to", call.to, "TIME up to which; default: the newest frame");
