@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <limits>
 #include <utility>
 
@@ -75,6 +76,11 @@ void Checkpointer::take(const World& durable, std::int64_t sequence, std::uint32
   const double seconds_per_frame = count_ > 0 ? work_ / static_cast<double>(count_) : 0;
   Taken taken{durable.state(), durable.background(), sequence, frame_checksum, seconds_per_frame};
   worker_.post([this, end, taken = std::move(taken)] { write(taken); });
+}
+
+void Checkpointer::finish() {
+  std::promise<void> written;
+  if (worker_.post([&] { written.set_value(); })) written.get_future().wait();
 }
 
 void Checkpointer::write(const Taken& taken) {

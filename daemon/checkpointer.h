@@ -40,6 +40,8 @@ class Checkpointer {
   /// Takes one of what is durable, if it is due: its last frame or event and that one's checksum.
   /// Costs next to nothing.
   void take(const World& durable, std::int64_t sequence, std::uint32_t frame_checksum);
+  /// Waits until what was taken is written.
+  void finish();
   /// Makes the next one due.
   void demand() { demanded_ = true; }
 

@@ -47,6 +47,7 @@ Result<RebuildReport> rebuild(const std::string& directory,
   HistoryRecorder recorder(last.knowledge().log.history_grain);
   RebuildReport report{0, fold->from_sequence() + 1, 0};
   const std::int64_t all = (*log)->last_sequence();
+  std::uint32_t last_checksum = 0;
   Status done = Done{};
   const Status read = reader.for_each(report.first, [&](const LoggedFrame& one) {
     const auto begin = std::chrono::steady_clock::now();
@@ -58,15 +59,20 @@ Result<RebuildReport> rebuild(const std::string& directory,
          recorder.look(world.settled(), *world.background(),
                        [](const auto&) { return std::optional<HistorySample>(); }))
       if (done = (*log)->put_sample(sample); !done) return false;
+    last_checksum = checksum(one);
     if (++report.folded % kBatch != 0) return true;
     if (done = (*log)->commit(); !done) return false;
-    checkpointer.take(world, one.sequence, checksum(one));
+    checkpointer.take(world, one.sequence, last_checksum);
     progress(one.sequence, all);
     return true;
   });
   if (!read) return read.error();
   if (!done) return done.error();
   if (done = (*log)->commit(); !done) return done.error();
+  checkpointer.finish();  // what is being written, so that the last one is taken
+  checkpointer.demand();
+  checkpointer.take(fold->world(), all, last_checksum);
+  checkpointer.finish();
   report.checkpoints = checkpointer.bytes();
   return report;
 }

@@ -87,6 +87,7 @@ TEST_F(LogCommands, ALogThatIsFoldedAnewGivesTheSame) {
   const Outcome rebuilt = run("rebuild '" + (folder_ / "data") + "' 2>&1");
   EXPECT_EQ(rebuilt.status, 0) << rebuilt.output;
   EXPECT_NE(rebuilt.output.find("62 frames and events"), std::string::npos) << rebuilt.output;
+  EXPECT_EQ(rebuilt.output.find(" 0 B"), std::string::npos) << "a start goes on from a checkpoint";
   DaemonProcess::Options options;
   options.scene = kScene;
   std::string green = kScene;

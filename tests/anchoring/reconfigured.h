@@ -85,7 +85,7 @@ inline double expected_unseen(const World& world, const std::string& name) {
 }
 
 inline void expect_refused(const World& world, const Knowledge& knowledge, const std::string& field,
-                    const std::vector<std::string>& named) {
+                           const std::vector<std::string>& named) {
   const std::string before = everything(world);
   const auto next = reconfigured(world, knowledge);
   ASSERT_FALSE(next.ok()) << field;
