@@ -142,8 +142,24 @@ void Journal::take(Submission submission) {
   pending_.push_back({std::move(submission), receipt});
 }
 
+namespace {
+
+/// The log's encoding has room for three numbers always: what is missing would pass for zeros.
+Status check_positions(const Frame& frame, int dims) {
+  for (std::size_t i = 0; i < frame.detections.size(); ++i) {
+    const auto* measured = std::get_if<CartesianMeasurement>(&frame.detections[i].measurement);
+    if (measured && static_cast<int>(measured->position.size()) < dims)
+      return invalid("detections[" + std::to_string(i) + "].position",
+                     "must have " + std::to_string(dims) + " numbers");
+  }
+  return Done{};
+}
+
+}  // namespace
+
 /// Adds to `folded` unless the frame is in the log, or there, already.
 Status Journal::fold(const Frame& frame, std::vector<Folded>& folded) {
+  if (Status whole = check_positions(frame, background_->dims); !whole) return whole;
   LoggedFrame logged{LoggedFrame::Kind::kFrame, 0, frame.utime, frame.robot, frame.sensor,
                      canonical_bytes(frame)};
   if (const auto newest = world_.newest(frame); newest && frame.utime <= *newest) {

@@ -204,7 +204,7 @@ struct Limits {
 struct LogLimits {
   double keep = 0;             ///< s; older ones may go; 0: none does for its age
   std::int64_t max_bytes = 0;  ///< of the log's file; 0: no bound
-  double history_grain = 1;    ///< s between what is kept of where an object was, once they went
+  double history_grain = 1;    ///< s of frames' time at least between two looks for histories
 };
 
 struct Knowledge {

@@ -250,6 +250,18 @@ TEST_F(JournalTest, RestoresTheBeliefToTheByte) {
   EXPECT_EQ(statistics_.late, 0u) << "counted since the start";
 }
 
+TEST_F(JournalTest, APositionInThePlaneIsNoneInSpace) {
+  auto journal = started();
+  Frame flat = frame_number(1);
+  std::get<CartesianMeasurement>(flat.detections[1].measurement) = {{1, 2}, {1, 0, 0, 1}};
+  const auto receipt = apply(*journal, {flat});
+  ASSERT_FALSE(receipt.ok());
+  EXPECT_EQ(receipt.error().field, "detections[1].position");
+  EXPECT_EQ(committed(), 0);
+  std::get<CartesianMeasurement>(flat.detections[1].measurement).covariance.clear();
+  EXPECT_FALSE(apply(*journal, {flat}).ok()) << "though the sensor's noise would do";
+}
+
 TEST_F(JournalTest, AFrameThatCannotBeFoldedIsNamed) {
   {
     auto journal = started();
