@@ -8,18 +8,8 @@ package=$(realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source dev.d/common.sh
 
-((EUID == 0)) || fail "only root can make a bare system"
-command -v debootstrap >/dev/null || fail "debootstrap is missing: apt-get install debootstrap"
-
-root=${FOLDER:-}
-if [[ -z $root ]]; then
-  root=$(mktemp -d)
-  trap 'rm -rf --one-file-system "$root"' EXIT
-fi
-if [[ ! -x $root/usr/bin/apt-get ]]; then
-  say "making a bare Debian 12 in $root"
-  debootstrap --variant=minbase bookworm "$root" "${MIRROR:-http://deb.debian.org/debian}" >/dev/null
-fi
+# shellcheck source=cmake/bare_debian.sh
+source cmake/bare_debian.sh
 cp "$package" "$root/anchord.deb"
 
 # In namespaces of its own, network included: nothing is heard or sent outside.
