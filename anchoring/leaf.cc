@@ -107,12 +107,7 @@ PositionFit position_fit(const ModelState& state, const MapDetection& detection,
     return {f.log_likelihood, f.distance2 <= background.gate_distance2};
   }
   const auto& somewhere = std::get<Somewhere>(state.density);
-  const Footprint* const place = somewhere.footprint().get();
-  const auto known = std::find_if(detection.in_places.begin(), detection.in_places.end(),
-                                  [&](const auto& in) { return in.first == place; });
-  if (known == detection.in_places.end())
-    return fit_in_place(somewhere, MeasuredIn::of(z, *place), gate);
-  return fit_in_place(somewhere, known->second, gate);
+  return fit_in_place(somewhere, detection.in(*somewhere.footprint()), gate);
 }
 
 /// Whether z may lie in the gate of a model; most detections are too far from most leaves.

@@ -124,8 +124,9 @@ double update_models(Leaf& leaf, const MapDetection& z, const LeafVisibility& sh
       update(*kinematic, z.position, dims);
       keep_above(*kinematic, sensor.pose_floor, dims);
     } else {
+      const auto& somewhere = std::get<Somewhere>(state.density);
       log_weight[m] = std::log(state.weight) +
-                      std::log(std::get<Somewhere>(state.density).likelihood(z.position)) + log_own;
+                      std::log(somewhere.likelihood(z.in(*somewhere.footprint()))) + log_own;
     }
   }
   const double total = log_sum(log_weight, [](double x) { return x; });

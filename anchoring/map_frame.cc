@@ -202,6 +202,12 @@ std::uint32_t number_of(const std::string& robot, const std::string& sensor) {
 
 }  // namespace
 
+MeasuredIn MapDetection::in(const Footprint& place) const {
+  const auto known = std::find_if(in_places.begin(), in_places.end(),
+                                  [&](const auto& in) { return in.first == &place; });
+  return known == in_places.end() ? MeasuredIn::of(position, place) : known->second;
+}
+
 Result<MapFrame> place_in_map(const Frame& frame, const Background& background) {
   if (frame.utime < kEarliestUtime || frame.utime > kLatestUtime)
     return invalid("utime", "must lie in the years 2000 to 2100, in microseconds since 1970");

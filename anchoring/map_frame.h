@@ -42,6 +42,9 @@ struct MapDetection {
   std::string object;         ///< the anchor that it names, or empty
   /// What of it lies in each place where objects are looked for, see Background::searched().
   std::vector<std::pair<const Footprint*, MeasuredIn>> in_places;
+
+  /// What of it lies in a place: as taken down, or worked out.
+  MeasuredIn in(const Footprint& place) const;
 };
 
 /// A frame, checked and placed in the map: what the engine folds.

@@ -14,18 +14,29 @@ namespace {
 /// The share of a box that no wall hides: of points spread evenly, four to a column's height.
 double clear_share(const Walls& walls, const Eigen::Vector3d& eye, const Eigen::Vector3d& low,
                    const Eigen::Vector3d& high, int dims) {
-  const int up = dims == 3 ? 4 : 1;
+  const std::size_t up = dims == 3 ? 4 : 1;
+  const Eigen::Vector3d size = high - low;
+  std::array<double, 4> heights;
+  for (std::size_t k = 0; k < up; ++k)
+    heights[k] = low.z() + (static_cast<double>(k) + 0.5) / static_cast<double>(up) * size.z();
   int clear = 0;
-  for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j)
-      for (int k = 0; k < up; ++k) {
-        const Eigen::Vector3d at((i + 0.5) / 2, (j + 0.5) / 2, (k + 0.5) / up);
-        clear += !walls.hide(eye, low + at.cwiseProduct(high - low));
-      }
-  return static_cast<double>(clear) / (4 * up);
+  for (const double i : {0.25, 0.75})
+    for (const double j : {0.25, 0.75})
+      clear +=
+          walls.clear(eye, {low.x() + i * size.x(), low.y() + j * size.y()}, {heights.data(), up});
+  return clear / (4 * static_cast<double>(up));
 }
 
-Look look_at(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
+/// The walls that may hide something in view from an eye.
+Walls walls_before(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
+                   const Background& background) {
+  if (!eye) return Walls({});
+  const auto seen = view.bounds();
+  return background.walls.within({std::min(seen[0], eye->x()), std::min(seen[1], eye->y()),
+                                  std::max(seen[2], eye->x()), std::max(seen[3], eye->y())});
+}
+
+Look look_at(const MapView& view, const std::optional<Eigen::Vector3d>& eye, const Walls& walls,
              const Background& background) {
   const Tiling& tiling = *background.tiling;
   Look look;
@@ -43,9 +54,8 @@ Look look_at(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
       for (int i = 0; i < Tiling::kEdge && x0 + i < grid.columns; ++i) {
         const int cell = (y0 + j) * grid.columns + x0 + i;
         const Eigen::Vector3d low = grid.corner_min(cell), high = grid.corner_max(cell);
-        double share = view.sees_everything() ? 1.0 : view.share(low, high);
-        if (eye && share > 0)
-          share *= clear_share(background.walls, *eye, low, high, background.dims);
+        double share = view.share(low, high);
+        if (eye && share > 0) share *= clear_share(walls, *eye, low, high, background.dims);
         tile.share[j * Tiling::kEdge + i] = share;
         any = any || share > 0;
       }
@@ -94,7 +104,8 @@ Visibility::Visibility(const MapFrame& frame, const Background& background)
       eye_(background.walls.none() ? std::nullopt : frame.eye),
       from_(background.ranged ? frame.eye : std::nullopt),
       background_(&background),
-      look_(look_at(view_, eye_, background)),
+      walls_(walls_before(view_, eye_, background)),
+      look_(look_at(view_, eye_, walls_, background)),
       volume_(sum(look_) * background.cell_volume()),
       hardly_(kHardly * background.knowledge.limits.min_existence) {}
 
@@ -104,15 +115,26 @@ bool Visibility::same_for(const MapFrame& frame) const {
 }
 
 const std::vector<double>& Visibility::of(const Footprint& footprint) const {
-  auto it = footprints_.find(&footprint);
-  if (it != footprints_.end()) return it->second;
-  std::vector<double> share = footprint.visible(view_);
-  for (std::size_t i = 0; eye_ && i < share.size(); ++i)
-    if (share[i] > 0)
-      share[i] *=
-          clear_share(background_->walls, *eye_, footprint.grid.corner_min(footprint.cells[i]),
-                      footprint.grid.corner_max(footprint.cells[i]), background_->dims);
-  return footprints_.emplace(&footprint, std::move(share)).first->second;
+  const auto [at, fresh] = footprints_.try_emplace(&footprint);
+  std::vector<double>& share = at->second;
+  if (!fresh) return share;
+  share.assign(footprint.cells.size(), 0.0);
+  if (view_.sees_nothing()) return share;
+  const Grid &world = background_->grid, &grid = footprint.grid;
+  const bool columns = grid.z_min == world.z_min && grid.z_max == world.z_max;
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const Eigen::Vector3d low = grid.corner_min(footprint.cells[i]);
+    const Eigen::Vector3d high = grid.corner_max(footprint.cells[i]);
+    const int column = columns ? world.index(0.5 * (low + high)) : -1;
+    share[i] = column >= 0 ? look_.at(*background_->tiling, column) : share_of(low, high);
+  }
+  return share;
+}
+
+double Visibility::share_of(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
+  const double share = view_.share(low, high);
+  if (!eye_ || share == 0) return share;
+  return share * clear_share(walls_, *eye_, low, high, background_->dims);
 }
 
 double Visibility::clear_of_walls(const Gaussian& density) const {
@@ -168,7 +190,7 @@ SeenPart Visibility::aimed(SeenPart part, const Kinematic& kinematic) const {
   Eigen::Vector3d inward = Eigen::Vector3d::Zero();
   for (const Probe& probe : background_->dims == 3 ? kSolid : kFlat) {
     const Eigen::Vector3d at = kinematic.position + factor * probe.white;
-    const bool seen = view_.contains(at) && !(eye_ && background_->walls.hide(*eye_, at));
+    const bool seen = view_.contains(at) && !(eye_ && walls_.hide(*eye_, at));
     inward += (seen ? probe.weight : -probe.weight) * probe.white;
   }
   const double length = inward.norm();

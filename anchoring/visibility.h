@@ -49,6 +49,8 @@ class Visibility {
 
  private:
   double range_of(const Grid& grid, int cell) const;
+  /// The share of a box that is in view and that no wall hides.
+  double share_of(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   double range(const Somewhere& somewhere) const;
   double exactness(double p) const;
   /// How much of a density is in view and not hidden; `p`: the probability that it is there.
@@ -64,6 +66,7 @@ class Visibility {
   std::optional<Eigen::Vector3d> eye_;   ///< none where there are no walls
   std::optional<Eigen::Vector3d> from_;  ///< the eye, none where no p_D depends on the distance
   const Background* background_;
+  Walls walls_;  ///< those that may stand between the eye and what is in view
   Look look_;
   double volume_;
   double hardly_;  ///< what is there to be seen with less probability is not missed

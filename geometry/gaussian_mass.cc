@@ -76,17 +76,17 @@ double mass(const Gaussian& density, const Region& region, int dims) {
   if (mean.x() + reach_x < bounds.min.x() || mean.x() - reach_x > bounds.max.x() ||
       mean.y() + reach_y < bounds.min.y() || mean.y() - reach_y > bounds.max.y())
     return 0;
-  if (dims == 2) {
-    // Most densities are narrow and stand far from every edge.
-    const Clearance clear = clearance(mean, region.polygon);
-    if (clear.distance2 > kAll * kAll * covariance.trace()) return clear.inside ? 1 : 0;
-    return polygon_mass(mean, upper_factor<2>(covariance), region.polygon);
-  }
+  // Most densities are narrow and stand far from every edge.
+  const Clearance clear = clearance(mean, region.polygon);
+  const bool apart = clear.distance2 > kAll * kAll * covariance.trace();
+  if (apart && !clear.inside) return 0;
+  if (dims == 2) return apart ? 1 : polygon_mass(mean, upper_factor<2>(covariance), region.polygon);
 
   const double variance = std::max(density.covariance(2, 2), 1e-18), sigma = std::sqrt(variance);
   double low = std::max((region.z_min - density.mean.z()) / sigma, -kFar);
   double high = std::min((region.z_max - density.mean.z()) / sigma, kFar);
   if (low >= high) return 0;
+  if (apart) return normal_between(low, high);
   const Eigen::Vector2d slope = density.covariance.block<2, 1>(0, 2) / sigma;
   const bool all_heights = low == -kFar && high == kFar;
   const bool correlated = slope.cwiseAbs2().sum() > 1e-28 * covariance.trace();

@@ -67,7 +67,7 @@ class MapView {
   Eigen::Vector3d in_sensor(const Eigen::Vector3d& point_map) const;
   double along(const Eigen::Vector3d& p) const;
   Depth depth(const Eigen::Vector3d& p) const;
-  double cell_share(const Eigen::Vector3d& p, const Eigen::Vector3d& extent) const;
+  double sampled_share(const Eigen::Vector3d& box_min, const Eigen::Vector3d& size) const;
   double polygon_share(const Eigen::Vector3d& box_min, const Eigen::Vector3d& box_max) const;
   Clearance clearance(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance,
                       const Depth& at_mean, double sphere, const MassPrecision& precision) const;

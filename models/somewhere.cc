@@ -1,5 +1,6 @@
 #include "models/somewhere.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,9 +9,20 @@
 #include "geometry/polygon.h"
 
 namespace anchord {
+namespace {
+
+using Cells = Eigen::Map<Eigen::ArrayXd>;
+using ConstCells = Eigen::Map<const Eigen::ArrayXd>;
+
+template <typename Vector>
+ConstCells cells_of(const Vector& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+}  // namespace
 
 Footprint Footprint::of(const Region& region, const Grid& world, int dims) {
-  Footprint f{region, region.volume(dims), dims, {}, {}, {}, {}, {}};
+  Footprint f{region, region.volume(dims), dims, {}, {}, {}, {}, {}, {}};
   Eigen::Vector3d low(region.polygon[0].x(), region.polygon[0].y(), 0), high = low;
   for (const auto& p : region.polygon) {
     low.head<2>() = low.head<2>().cwiseMin(p);
@@ -31,6 +43,7 @@ Footprint Footprint::of(const Region& region, const Grid& world, int dims) {
     f.position_of[i] = static_cast<int>(f.cells.size());
     f.cells.push_back(i);
     f.share.push_back(share);
+    f.moments.push_back(moments_of(part));
     f.piece.push_back({std::move(part), region.z_min, region.z_max});
   }
   return f;
@@ -54,19 +67,6 @@ std::vector<double> Footprint::overlap(const Region& other) const {
                             ? area_of(part_in(*common, low, high)) / (share[i] * area)
                             : area_of(part_in(other.polygon, low, high)) / (grid.cell * grid.cell);
     out[i] = height * std::min(part, 1.0);
-  }
-  return out;
-}
-
-std::vector<double> Footprint::visible(const MapView& view) const {
-  std::vector<double> out(cells.size(), view.sees_everything() ? 1.0 : 0.0);
-  if (view.sees_everything() || view.sees_nothing()) return out;
-  const auto seen = view.bounds();
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Eigen::Vector3d low = grid.corner_min(cells[i]), high = grid.corner_max(cells[i]);
-    if (high.x() < seen[0] || high.y() < seen[1] || low.x() > seen[2] || low.y() > seen[3])
-      continue;
-    out[i] = view.share(low, high);
   }
   return out;
 }
@@ -132,9 +132,12 @@ double Somewhere::mass_in(int cell_position) const {
 }
 
 double Somewhere::mass(const std::vector<double>& visible) const {
+  const auto in_view = cells_of(footprint_->share) * cells_of(visible);
   double sum = 0;
-  for (std::size_t i = 0; i < visible.size(); ++i)
-    if (visible[i] > 0) sum += footprint_->share[i] * relative(i) * visible[i];
+  if (looked_at_)
+    sum = (in_view * (weight_looked_ * cells_of(*looked_at_) + uniform())).sum();
+  else
+    sum = in_view.sum();
   return std::min(sum, 1.0);
 }
 
@@ -154,13 +157,14 @@ void Somewhere::enter(double weight, double entering) {
 
 void Somewhere::miss(double p, const std::vector<double>& visible) {
   auto next = make_pooled<PoolVector<double>>(visible.size());
+  Cells heights(next->data(), static_cast<Eigen::Index>(next->size()));
+  const auto missed = 1 - p * cells_of(visible);
+  if (looked_at_)
+    heights = (weight_looked_ * cells_of(*looked_at_) + uniform()) * missed;
+  else
+    heights = missed;
   // Summed, not 1 - p mass(visible): each miss would divide the rounding error of the sum by that.
-  double rest = 0;
-  for (std::size_t i = 0; i < visible.size(); ++i) {
-    (*next)[i] = relative(i) * (1 - p * visible[i]);
-    rest += footprint_->share[i] * (*next)[i];
-  }
-  for (double& height : *next) height /= rest;
+  heights *= 1 / (cells_of(footprint_->share) * heights).sum();
   looked_at_ = std::move(next);
   weight_looked_ = 1;
 }
@@ -170,8 +174,10 @@ Somewhere Somewhere::merge(double weight_a, const Somewhere& a, double weight_b,
   if (a.looked_at_ == b.looked_at_ && a.weight_looked_ == b.weight_looked_) return a;
   const double u = weight_a / (weight_a + weight_b);
   auto mixed = make_pooled<PoolVector<double>>(a.footprint_->cells.size());
-  for (std::size_t i = 0; i < mixed->size(); ++i)
-    (*mixed)[i] = u * a.relative(i) + (1 - u) * b.relative(i);
+  Cells heights(mixed->data(), static_cast<Eigen::Index>(mixed->size()));
+  heights.setConstant(u * a.uniform() + (1 - u) * b.uniform());
+  if (a.looked_at_) heights += u * a.weight_looked_ * cells_of(*a.looked_at_);
+  if (b.looked_at_) heights += (1 - u) * b.weight_looked_ * cells_of(*b.looked_at_);
   Somewhere out(a.footprint_);
   out.looked_at_ = std::move(mixed);
   out.weight_looked_ = 1;
@@ -190,7 +196,7 @@ Somewhere Somewhere::over(std::shared_ptr<const Footprint> place) const {
   auto heights = make_pooled<PoolVector<double>>(now.cells.size(), 1.0);
   double sum = 0;
   for (std::size_t i = 0; i < heights->size(); ++i) {
-    const int cell = footprint_->grid.index(moments_of(now.piece[i].polygon).mean);
+    const int cell = footprint_->grid.index(now.moments[i].mean);
     if (const int old = cell < 0 ? -1 : footprint_->position_of[cell]; old >= 0)
       (*heights)[i] = relative(static_cast<std::size_t>(old));
     sum += now.share[i] * (*heights)[i];
@@ -205,11 +211,11 @@ Somewhere Somewhere::over(std::shared_ptr<const Footprint> place) const {
 Gaussian Somewhere::moments() const {
   const Footprint& f = *footprint_;
   // About the first piece: a place may be far from the origin.
-  const Eigen::Vector3d about = moments_of(f.piece.front().polygon).mean;
+  const Eigen::Vector3d& about = f.moments.front().mean;
   Gaussian g;
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < f.cells.size(); ++i) {
-    const Gaussian piece = moments_of(f.piece[i].polygon);
+    const Gaussian& piece = f.moments[i];
     const Eigen::Vector3d d = piece.mean - about;
     const double m = mass_in(static_cast<int>(i));
     g.mean += m * d;

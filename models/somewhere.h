@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <boost/container/small_vector.hpp>
 #include <memory>
 #include <vector>
 
@@ -8,7 +9,6 @@
 #include "geometry/gaussian.h"
 #include "geometry/grid.h"
 #include "geometry/region.h"
-#include "geometry/view.h"
 
 namespace anchord {
 
@@ -19,10 +19,11 @@ struct Footprint {
   double volume = 0;  ///< m^dims
   int dims = 2;
   Grid grid;
-  std::vector<int> cells;        ///< grid indices, ascending
-  std::vector<double> share;     ///< of the region's area in each of them; sums to 1
-  std::vector<int> position_of;  ///< by grid index: where in `cells` it stands, or -1
-  std::vector<Region> piece;     ///< what of the region lies in each cell
+  std::vector<int> cells;         ///< grid indices, ascending
+  std::vector<double> share;      ///< of the region's area in each of them; sums to 1
+  std::vector<int> position_of;   ///< by grid index: where in `cells` it stands, or -1
+  std::vector<Region> piece;      ///< what of the region lies in each cell
+  std::vector<Gaussian> moments;  ///< of each piece, in the plane
 
   /// The region must have a finite volume. The grid is that of the region's own bounding box,
   /// aligned to `world`.
@@ -36,9 +37,6 @@ struct Footprint {
   bool same_cells(const Footprint& other) const {
     return region == other.region && dims == other.dims && grid == other.grid;
   }
-
-  /// Per cell the share of its column (between the region's heights) that is in view.
-  std::vector<double> visible(const MapView& view) const;
 };
 
 /// A measurement as every density over one place has it.
@@ -51,7 +49,7 @@ struct MeasuredIn {
     int cell;
     double share;  ///< of what lies in these cells
   };
-  std::vector<Part> parts;
+  boost::container::small_vector<Part, 4> parts;
 
   /// In a 3-D world as if the noise in height were independent of the plane's. Where the noise is
   /// small against a cell and the mean is well inside, the mean's cell decides.
@@ -75,7 +73,7 @@ class Somewhere {
   /// The same of what has been taken down for the place once, for all densities over it.
   double likelihood(const MeasuredIn& measurement) const;
 
-  /// The density's mass in view; `visible` from Footprint::visible().
+  /// The density's mass in view; `visible` is per cell of the footprint the share in view.
   double mass(const std::vector<double>& visible) const;
   /// The density's mass in each of the footprint's cells, in order.
   double mass_in(int cell_position) const;
@@ -107,9 +105,11 @@ class Somewhere {
   }
 
  private:
+  /// How much of the density is uniform.
+  double uniform() const { return looked_at_ ? 1 - weight_looked_ : 1.0; }
   /// Density in a cell over the uniform one.
   double relative(std::size_t i) const {
-    return looked_at_ ? weight_looked_ * (*looked_at_)[i] + (1 - weight_looked_) : 1.0;
+    return looked_at_ ? weight_looked_ * (*looked_at_)[i] + uniform() : 1.0;
   }
 
   std::shared_ptr<const Footprint> footprint_;

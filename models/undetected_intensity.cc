@@ -34,6 +34,13 @@ int Tiling::cell(int tile, int place) const {
   return y * grid.columns + x;
 }
 
+double Look::at(const Tiling& tiling, int cell) const {
+  const int number = tiling.tile_of(cell);
+  const auto tile = std::ranges::lower_bound(tiles, number, {}, &Tile::tile);
+  if (tile == tiles.end() || tile->tile != number) return 0;
+  return tile->share[tiling.place_in_tile(cell)];
+}
+
 double UndetectedIntensity::untouched(int cell, double time) const {
   const double mu = model_->departure_rate;
   const double dt = time - since_;

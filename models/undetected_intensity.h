@@ -28,7 +28,10 @@ struct Look {
     int tile;
     std::vector<double> share;  ///< Tiling::kCells entries, cells beyond the grid 0
   };
-  std::vector<Tile> tiles;
+  std::vector<Tile> tiles;  ///< by number, ascending
+
+  /// Of a cell of the grid.
+  double at(const Tiling& tiling, int cell) const;
 };
 
 /// What drives a class's intensity: d lambda / dt = beta(x) - mu lambda.

@@ -103,18 +103,5 @@ TEST(Footprint, HeightsCountInThreeDimensionsOnly) {
   EXPECT_EQ(shared(Footprint::of(low, world(), 3), box({0, 0, 1.5}, {1, 1, 2})), 0);
 }
 
-TEST_P(FootprintIn, SeesWhatTheViewSees) {
-  const Footprint f = of(box({0, 0, 0}, {2, 2, 1}));
-  const auto view = [&](View v) { return *MapView::place(v, std::nullopt, dims); };
-  const double everything = f.visible(view({.type = View::Type::kWorld, .points = {}}))[0];
-  EXPECT_EQ(everything, 1);
-  EXPECT_EQ(f.visible(view({}))[0], 0);
-  // A polygon along the cells' edges: 1 x 0.5 m of 2 x 2 m.
-  const auto part = f.visible(
-      view({.type = View::Type::kPolygon, .points = {{0.5, 0.5}, {1.5, 0.5}, {1.5, 1}, {0.5, 1}}}));
-  EXPECT_NEAR(std::inner_product(part.begin(), part.end(), f.share.begin(), 0.0), 0.5 / 4,
-              kRounding);
-}
-
 }  // namespace
 }  // namespace anchord
