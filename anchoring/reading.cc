@@ -106,18 +106,22 @@ Gaussian moments(const Leaf& leaf) {
   return sum;
 }
 
+namespace {
+
+double mass_in_place(const ModelState& model, int place, const Background& background) {
+  if (const auto* kinematic = std::get_if<Kinematic>(&model.density))
+    return mass(kinematic->position_density(), background.footprint(place)->region,
+                background.dims);
+  const auto& somewhere = std::get<Somewhere>(model.density);
+  return somewhere.mass(background.overlap(*somewhere.footprint(), place));
+}
+
+}  // namespace
+
 double mass_in_place(const Leaf& leaf, int place, const Background& background) {
-  const Footprint& asked = *background.footprint(place);
   double sum = 0;
-  for (const ModelState& model : leaf.models) {
-    if (model.weight <= 0) continue;
-    if (const auto* kinematic = std::get_if<Kinematic>(&model.density)) {
-      sum += model.weight * mass(kinematic->position_density(), asked.region, background.dims);
-      continue;
-    }
-    const auto& somewhere = std::get<Somewhere>(model.density);
-    sum += model.weight * somewhere.mass(background.overlap(*somewhere.footprint(), place));
-  }
+  for (const ModelState& model : leaf.models)
+    if (model.weight > 0) sum += model.weight * mass_in_place(model, place, background);
   return std::min(sum, 1.0);
 }
 
@@ -165,11 +169,34 @@ double ObjectBelief::in_place(int place, const Background& background) const {
   return std::min(sum, 1.0);
 }
 
+/// The likeliest version first, and as much of the density as it takes to tell.
+bool ObjectBelief::mostly_in(int place, const Background& background) const {
+  const Leaf* const first = &shown();
+  double in = 0, out = 0;
+  const auto told = [&] { return in >= 0.5 || out > 0.5; };
+  const auto look = [&](const Version& version) {
+    const double weight = version.weight(p);
+    for (auto model = version.leaf.models.begin(); model != version.leaf.models.end() && !told();
+         ++model) {
+      const double mass = weight * model->weight;
+      if (mass <= 0) continue;
+      const double inside = mass * mass_in_place(*model, place, background);
+      in += inside;
+      out += mass - inside;
+    }
+  };
+  for (const Version& version : versions)
+    if (&version.leaf == first) look(version);
+  for (const Version& version : versions)
+    if (&version.leaf != first && !told()) look(version);
+  return in >= 0.5;
+}
+
 int ObjectBelief::place(const Background& background) const {
   const auto& places = background.knowledge.places;
   int deepest = -1;
   for (int i = 0; i < static_cast<int>(places.size()); ++i)
-    if ((deepest < 0 || places[i].depth > places[deepest].depth) && in_place(i, background) >= 0.5)
+    if ((deepest < 0 || places[i].depth > places[deepest].depth) && mostly_in(i, background))
       deepest = i;
   return deepest;
 }

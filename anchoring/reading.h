@@ -39,6 +39,8 @@ struct ObjectBelief {
   Gaussian moments(const Background& background) const;
   /// P(in the place | exists); `place` -1 is the world's bounds.
   double in_place(int place, const Background& background) const;
+  /// Whether that is at least a half.
+  bool mostly_in(int place, const Background& background) const;
   /// P(outside every place | exists).
   double outside_places(const Background& background) const;
   /// The deepest place that holds at least half of the density, or -1.

@@ -76,7 +76,7 @@ Result<Json> answer_objects(const HttpTarget& target, const Snapshot& snapshot) 
   for (auto& object : read_objects(*snapshot.belief, snapshot.utime(),
                                    asked->min_p.value_or(kLeastShown), background)) {
     if (match(object, asked->description, background) < 0.5) continue;
-    if (asked->place >= 0 && object.in_place(asked->place, background) < 0.5) continue;
+    if (asked->place >= 0 && !object.mostly_in(asked->place, background)) continue;
     matching.push_back(std::move(object));
   }
   std::stable_sort(matching.begin(), matching.end(),
