@@ -201,10 +201,9 @@ void Background::compare_places() {
   for (std::size_t f = 0; f < footprints_.size(); ++f) {
     const Footprint& footprint = *footprints_[f];
     auto& overlaps = overlaps_[&footprint];
-    auto& any = overlaps_any_[&footprint];
-    any.assign(footprint.cells.size(), 0.0);
+    std::vector<double> any(footprint.cells.size(), 0.0);
     for (std::size_t other = 0; other < footprints_.size(); ++other) {
-      overlaps.push_back(footprint.overlap(footprints_[other]->region));
+      overlaps.emplace_back(footprint.overlap(footprints_[other]->region), footprint);
       if (other == 0) continue;
       double shared = 0;
       for (std::size_t i = 0; i < any.size(); ++i) {
@@ -217,6 +216,7 @@ void Background::compare_places() {
       const bool inner = places[f - 1].parent == static_cast<int>(other) - 1;
       if ((both_outermost && shared > kEdge) || (inner && shared < 1 - kEdge)) places_nest_ = false;
     }
+    overlaps_any_[&footprint] = {std::move(any), footprint};
   }
 }
 

@@ -60,11 +60,11 @@ struct Background {
   /// The place that a footprint is of; -1: the world's bounds.
   int place_of(const Footprint& footprint) const;
   /// Footprint::overlap() of one of these footprints with a place (-1: the bounds).
-  const std::vector<double>& overlap(const Footprint& footprint, int place) const {
+  const CellShares& overlap(const Footprint& footprint, int place) const {
     return overlaps_.at(&footprint)[place + 1];
   }
   /// Per cell of one of these footprints the share that lies in any place.
-  const std::vector<double>& overlap_any(const Footprint& footprint) const {
+  const CellShares& overlap_any(const Footprint& footprint) const {
     return overlaps_any_.at(&footprint);
   }
   /// The footprints that a behaviour model of some class goes to, each once.
@@ -91,8 +91,8 @@ struct Background {
 
  private:
   std::vector<std::shared_ptr<const Footprint>> footprints_;
-  std::map<const Footprint*, std::vector<std::vector<double>>> overlaps_;
-  std::map<const Footprint*, std::vector<double>> overlaps_any_;
+  std::map<const Footprint*, std::vector<CellShares>> overlaps_;
+  std::map<const Footprint*, CellShares> overlaps_any_;
   std::vector<const Footprint*> searched_;
   std::map<const Footprint*, std::uint64_t> bits_;
   bool places_nest_ = true;

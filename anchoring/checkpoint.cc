@@ -45,8 +45,9 @@ namespace anchord {
 /// empty.
 ///
 /// 1: as of 0.1.0's first beliefs. 2: a configuration may change (floor, and since when a class's
-/// undetected intensity counts).
-constexpr std::uint32_t kMagic = 0x61630000, kVersion = 2;
+/// undetected intensity counts). 3: what is somewhere is held by blocks of cells, instead of by
+/// cell.
+constexpr std::uint32_t kMagic = 0x61630000, kVersion = 3;
 
 /// What an archive of a checkpoint carries along.
 struct CheckpointContext {
@@ -102,7 +103,12 @@ void load(Archive& archive, ModelState& state) {
   int place = 0;
   archive(place);
   const Background& background = context_of(archive).background;
-  archive(state.density.emplace<Somewhere>(background.footprint(place)));
+  auto& somewhere = state.density.emplace<Somewhere>(background.footprint(place));
+  if (context_of(archive).version >= 3)
+    archive(somewhere);
+  else
+    somewhere.load_by_cell(archive);
+  if (!somewhere.fits()) throw cereal::Exception("heights that are not those of the place");
 }
 
 template <typename Archive>

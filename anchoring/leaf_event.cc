@@ -66,15 +66,15 @@ void multiply(Values& values, const Values& by) {
 
 }  // namespace
 
-const std::vector<double>& LookedAt::of(const Footprint& footprint) {
-  const auto [it, made] = shares_.try_emplace(&footprint, footprint.cells.size(), 0.0);
-  std::vector<double>& share = it->second;
-  if (!made) return share;
+const CellShares& LookedAt::of(const Footprint& footprint) {
+  const auto [it, made] = shares_.try_emplace(&footprint);
+  if (!made) return it->second;
+  std::vector<double> share(footprint.cells.size(), 0.0);
   for (const Region& region : regions_) {
     const auto part = footprint.overlap(region);
     for (std::size_t i = 0; i < share.size(); ++i) share[i] = std::min(share[i] + part[i], 1.0);
   }
-  return share;
+  return it->second = {std::move(share), footprint};
 }
 
 void put_at(Leaf& leaf, const Gaussian& at, const Background& background) {

@@ -15,11 +15,11 @@ class LookedAt {
   explicit LookedAt(const MapEvent& missing) : regions_(missing.looked_at) {}
 
   /// Per cell of a footprint the share that was looked at.
-  const std::vector<double>& of(const Footprint& footprint);
+  const CellShares& of(const Footprint& footprint);
 
  private:
   const std::vector<Region>& regions_;
-  std::map<const Footprint*, std::vector<double>> shares_;
+  std::map<const Footprint*, CellShares> shares_;
 };
 
 /// What events do to one version of an object; the leaf is predicted to the event's time.

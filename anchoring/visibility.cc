@@ -114,11 +114,14 @@ bool Visibility::same_for(const MapFrame& frame) const {
          (!background_->ranged || from_ == frame.eye);
 }
 
-const std::vector<double>& Visibility::of(const Footprint& footprint) const {
+const CellShares& Visibility::of(const Footprint& footprint) const {
   const auto [at, fresh] = footprints_.try_emplace(&footprint);
-  std::vector<double>& share = at->second;
-  if (!fresh) return share;
-  share.assign(footprint.cells.size(), 0.0);
+  if (fresh) at->second = {shares_of(footprint), footprint};
+  return at->second;
+}
+
+std::vector<double> Visibility::shares_of(const Footprint& footprint) const {
+  std::vector<double> share(footprint.cells.size(), 0.0);
   if (view_.sees_nothing()) return share;
   const Grid &world = background_->grid, &grid = footprint.grid;
   const bool columns = grid.z_min == world.z_min && grid.z_max == world.z_max;
@@ -243,7 +246,7 @@ double Visibility::range(const Somewhere& somewhere) const {
   const Footprint& footprint = *somewhere.footprint();
   const auto [at, fresh] = ranges_.try_emplace(&footprint, 0);
   if (!fresh || !from_) return at->second;
-  const std::vector<double>& visible = of(footprint);
+  const CellShares& visible = of(footprint);
   double sum = 0, seen = 0;
   for (std::size_t i = 0; i < visible.size(); ++i) {
     const double area = visible[i] * footprint.share[i];

@@ -33,7 +33,7 @@ class Visibility {
 
   /// Per cell of a footprint the share in view; the footprint is one of the Background's. Objects
   /// hide nothing of it.
-  const std::vector<double>& of(const Footprint& footprint) const;
+  const CellShares& of(const Footprint& footprint) const;
 
   /// Per cell of the world's grid the share in view, likewise.
   const Look& look() const { return look_; }
@@ -49,6 +49,7 @@ class Visibility {
 
  private:
   double range_of(const Grid& grid, int cell) const;
+  std::vector<double> shares_of(const Footprint& footprint) const;
   /// The share of a box that is in view and that no wall hides.
   double share_of(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   double range(const Somewhere& somewhere) const;
@@ -71,7 +72,7 @@ class Visibility {
   double volume_;
   double hardly_;  ///< what is there to be seen with less probability is not missed
   // Filled when asked for:
-  mutable std::map<const Footprint*, std::vector<double>> footprints_;
+  mutable std::map<const Footprint*, CellShares> footprints_;
   mutable std::map<const Footprint*, double> ranges_;
   mutable std::map<std::pair<double, double>, Look> looks_;  // by near, per_m
 };

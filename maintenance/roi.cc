@@ -163,10 +163,10 @@ std::vector<RegionOfInterest> prisms(const Patch& patch, double log_level) {
     if (mass > 0) rows.push_back(prism(part_in(f.region.polygon, low, high), f, mass));
     mass = 0;
   };
-  for (std::size_t i = 0; i < f.cells.size(); ++i) {
-    if (!(patch.log_height[i] >= log_level)) continue;
+  for (int cell = 0; cell < f.grid.size(); ++cell) {
+    const int i = f.position_of[cell];
+    if (i < 0 || !(patch.log_height[i] >= log_level)) continue;
     ++taken;
-    const int cell = f.cells[i];
     if (mass == 0 || cell != last + 1 || cell % f.grid.columns == 0) {
       close();
       low = f.grid.corner_min(cell);

@@ -1,118 +1,17 @@
 #include "models/somewhere.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "geometry/gaussian_mass.h"
-#include "geometry/polygon.h"
 
 namespace anchord {
-namespace {
-
-using Cells = Eigen::Map<Eigen::ArrayXd>;
-using ConstCells = Eigen::Map<const Eigen::ArrayXd>;
-
-template <typename Vector>
-ConstCells cells_of(const Vector& values) {
-  return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
-
-}  // namespace
-
-Footprint Footprint::of(const Region& region, const Grid& world, int dims) {
-  Footprint f{region, region.volume(dims), dims, {}, {}, {}, {}, {}, {}};
-  Eigen::Vector3d low(region.polygon[0].x(), region.polygon[0].y(), 0), high = low;
-  for (const auto& p : region.polygon) {
-    low.head<2>() = low.head<2>().cwiseMin(p);
-    high.head<2>() = high.head<2>().cwiseMax(p);
-  }
-  for (int axis = 0; axis < 2; ++axis) {
-    const double steps = (low[axis] - world.origin[axis]) / world.cell;
-    low[axis] = world.origin[axis] + std::floor(steps + 1e-9) * world.cell;
-  }
-  if (dims == 3) low.z() = region.z_min, high.z() = region.z_max;
-  f.grid = Grid::over(low, high, world.cell);
-  f.position_of.assign(f.grid.size(), -1);
-  const double area = region.area();
-  for (int i = 0; i < f.grid.size(); ++i) {
-    Polygon part = part_in(region.polygon, f.grid.corner_min(i), f.grid.corner_max(i));
-    const double share = area_of(part) / area;
-    if (share <= 0) continue;
-    f.position_of[i] = static_cast<int>(f.cells.size());
-    f.cells.push_back(i);
-    f.share.push_back(share);
-    f.moments.push_back(moments_of(part));
-    f.piece.push_back({std::move(part), region.z_min, region.z_max});
-  }
-  return f;
-}
-
-std::vector<double> Footprint::overlap(const Region& other) const {
-  std::vector<double> out(cells.size(), 0.0);
-  double height = 1;
-  if (dims == 3) {
-    const double low = std::max(region.z_min, other.z_min);
-    const double high = std::min(region.z_max, other.z_max);
-    height = std::max(0.0, high - low) / (region.z_max - region.z_min);
-  }
-  if (height == 0) return out;
-  const auto common = region.polygon == other.polygon ? std::optional(region.polygon)
-                                                      : common_part(region.polygon, other.polygon);
-  const double area = region.area();
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Eigen::Vector3d low = grid.corner_min(cells[i]), high = grid.corner_max(cells[i]);
-    const double part = common
-                            ? area_of(part_in(*common, low, high)) / (share[i] * area)
-                            : area_of(part_in(other.polygon, low, high)) / (grid.cell * grid.cell);
-    out[i] = height * std::min(part, 1.0);
-  }
-  return out;
-}
 
 double Somewhere::density(const Eigen::Vector3d& point) const {
   if (!footprint_->region.contains(point, footprint_->dims)) return 0;
   const int cell = footprint_->grid.index(point);
   const int i = cell < 0 ? -1 : footprint_->position_of[cell];
   return (i < 0 ? 1.0 : relative(i)) / footprint_->volume;
-}
-
-MeasuredIn MeasuredIn::of(const Gaussian& z, const Footprint& place) {
-  MeasuredIn out;
-  out.mass = out.scale = ::anchord::mass(z, place.region, place.dims);
-  if (out.mass <= 0) return out;
-  const double spread2 = std::max(z.covariance(0, 0), z.covariance(1, 1));
-  const Grid& grid = place.grid;
-  if (spread2 * 16 < grid.cell * grid.cell && out.mass > 0.999) {
-    out.scale = place.region.contains(z.mean, place.dims) ? 1 : 0;
-    const int cell = grid.index(z.mean);
-    if (const int i = cell < 0 ? -1 : place.position_of[cell]; i >= 0) out.parts.push_back({i, 1});
-    return out;
-  }
-  // The mean of the density's relative height over the cells around z, weighted by what of z's
-  // distribution in the plane lies in each.
-  constexpr double kReach = 6;  // standard deviations; 1e-8 of the mass is farther
-  const double reach = kReach * std::sqrt(spread2);
-  const auto column = [&](double x) {
-    return std::clamp(static_cast<int>(std::floor((x - grid.origin.x()) / grid.cell)), 0,
-                      grid.columns - 1);
-  };
-  const auto row = [&](double y) {
-    return std::clamp(static_cast<int>(std::floor((y - grid.origin.y()) / grid.cell)), 0,
-                      grid.rows - 1);
-  };
-  double sum = 0;
-  for (int r = row(z.mean.y() - reach); r <= row(z.mean.y() + reach); ++r)
-    for (int c = column(z.mean.x() - reach); c <= column(z.mean.x() + reach); ++c) {
-      const int i = place.position_of[r * grid.columns + c];
-      if (i < 0) continue;
-      const double m = ::anchord::mass(z, place.piece[i], 2);
-      if (m > 0) out.parts.push_back({i, m});
-      sum += m;
-    }
-  for (Part& part : out.parts) part.share /= sum;
-  return out;
 }
 
 double Somewhere::likelihood(const Gaussian& z) const {
@@ -131,13 +30,9 @@ double Somewhere::mass_in(int cell_position) const {
   return footprint_->share[cell_position] * relative(cell_position);
 }
 
-double Somewhere::mass(const std::vector<double>& visible) const {
-  const auto in_view = cells_of(footprint_->share) * cells_of(visible);
-  double sum = 0;
-  if (looked_at_)
-    sum = (in_view * (weight_looked_ * cells_of(*looked_at_) + uniform())).sum();
-  else
-    sum = in_view.sum();
+double Somewhere::mass(const CellShares& shares) const {
+  double sum = uniform() * shares.total();
+  if (looked_at_) sum += weight_looked_ * looked_at_->mass(shares, *footprint_);
   return std::min(sum, 1.0);
 }
 
@@ -155,16 +50,18 @@ void Somewhere::enter(double weight, double entering) {
   if (weight_looked_ == 0) looked_at_.reset();
 }
 
-void Somewhere::miss(double p, const std::vector<double>& visible) {
-  auto next = make_pooled<PoolVector<double>>(visible.size());
-  Cells heights(next->data(), static_cast<Eigen::Index>(next->size()));
-  const auto missed = 1 - p * cells_of(visible);
-  if (looked_at_)
-    heights = (weight_looked_ * cells_of(*looked_at_) + uniform()) * missed;
-  else
-    heights = missed;
+std::shared_ptr<RelativeHeights> Somewhere::heights() const {
+  if (!looked_at_) return make_pooled<RelativeHeights>(*footprint_);
+  auto all = make_pooled<RelativeHeights>(*looked_at_);
+  all->change(weight_looked_, uniform());
+  return all;
+}
+
+void Somewhere::miss(double p, const CellShares& visible) {
+  auto next = heights();
+  next->miss(p, visible, *footprint_);
   // Summed, not 1 - p mass(visible): each miss would divide the rounding error of the sum by that.
-  heights *= 1 / (cells_of(footprint_->share) * heights).sum();
+  next->change(1 / next->mass(*footprint_), 0);
   looked_at_ = std::move(next);
   weight_looked_ = 1;
 }
@@ -172,13 +69,9 @@ void Somewhere::miss(double p, const std::vector<double>& visible) {
 Somewhere Somewhere::merge(double weight_a, const Somewhere& a, double weight_b,
                            const Somewhere& b) {
   if (a.looked_at_ == b.looked_at_ && a.weight_looked_ == b.weight_looked_) return a;
-  const double u = weight_a / (weight_a + weight_b);
-  auto mixed = make_pooled<PoolVector<double>>(a.footprint_->cells.size());
-  Cells heights(mixed->data(), static_cast<Eigen::Index>(mixed->size()));
-  heights.setConstant(u * a.uniform() + (1 - u) * b.uniform());
-  if (a.looked_at_) heights += u * a.weight_looked_ * cells_of(*a.looked_at_);
-  if (b.looked_at_) heights += (1 - u) * b.weight_looked_ * cells_of(*b.looked_at_);
   Somewhere out(a.footprint_);
+  auto mixed = a.heights();
+  mixed->mix(weight_a / (weight_a + weight_b), *b.heights(), *a.footprint_);
   out.looked_at_ = std::move(mixed);
   out.weight_looked_ = 1;
   return out;
@@ -193,19 +86,31 @@ Somewhere Somewhere::over(std::shared_ptr<const Footprint> place) const {
     return out;
   }
   if (!looked_at_) return out;
-  auto heights = make_pooled<PoolVector<double>>(now.cells.size(), 1.0);
+  std::vector<double> heights(now.cells.size(), 1.0);
   double sum = 0;
-  for (std::size_t i = 0; i < heights->size(); ++i) {
+  for (std::size_t i = 0; i < heights.size(); ++i) {
     const int cell = footprint_->grid.index(now.moments[i].mean);
     if (const int old = cell < 0 ? -1 : footprint_->position_of[cell]; old >= 0)
-      (*heights)[i] = relative(static_cast<std::size_t>(old));
-    sum += now.share[i] * (*heights)[i];
+      heights[i] = relative(static_cast<std::size_t>(old));
+    sum += now.share[i] * heights[i];
   }
   if (sum <= 0) return out;  // all that is left of it was looked at in vain
-  for (double& height : *heights) height /= sum;
-  out.looked_at_ = std::move(heights);
+  auto looked_at = out.heights();
+  looked_at->set(heights, now);
+  looked_at->change(1 / sum, 0);
+  out.looked_at_ = std::move(looked_at);
   out.weight_looked_ = 1;
   return out;
+}
+
+void Somewhere::set_in_grid_order(const PoolVector<double>& heights) {
+  std::vector<double> ordered(footprint_->cells.size());
+  std::size_t next = 0;
+  for (const int position : footprint_->position_of)
+    if (position >= 0 && next < heights.size()) ordered[position] = heights[next++];
+  auto looked_at = make_pooled<RelativeHeights>(*footprint_);
+  looked_at->set(ordered, *footprint_);
+  looked_at_ = std::move(looked_at);
 }
 
 Gaussian Somewhere::moments() const {

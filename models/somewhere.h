@@ -1,60 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <boost/container/small_vector.hpp>
 #include <memory>
 #include <vector>
 
-#include "core/pool.h"
-#include "geometry/gaussian.h"
-#include "geometry/grid.h"
-#include "geometry/region.h"
+#include "models/relative_heights.h"
 
 namespace anchord {
-
-/// The cells of a region, with the share of its area that lies in each: the support of `somewhere`
-/// and what expected numbers in a place are summed over. Shared by all densities over that place.
-struct Footprint {
-  Region region;
-  double volume = 0;  ///< m^dims
-  int dims = 2;
-  Grid grid;
-  std::vector<int> cells;         ///< grid indices, ascending
-  std::vector<double> share;      ///< of the region's area in each of them; sums to 1
-  std::vector<int> position_of;   ///< by grid index: where in `cells` it stands, or -1
-  std::vector<Region> piece;      ///< what of the region lies in each cell
-  std::vector<Gaussian> moments;  ///< of each piece, in the plane
-
-  /// The region must have a finite volume. The grid is that of the region's own bounding box,
-  /// aligned to `world`.
-  static Footprint of(const Region& region, const Grid& world, int dims);
-
-  /// Per cell the share of what lies in the region that lies in another region too. Where neither
-  /// polygon is convex, as if the region filled each of its cells.
-  std::vector<double> overlap(const Region& other) const;
-
-  /// Whether densities over one are densities over the other.
-  bool same_cells(const Footprint& other) const {
-    return region == other.region && dims == other.dims && grid == other.grid;
-  }
-};
-
-/// A measurement as every density over one place has it.
-struct MeasuredIn {
-  double mass = 0;  ///< how much of it lies in the place
-  /// The density convolved with the noise is, over the uniform one, `scale` times the mean of its
-  /// relative heights over these cells (positions in the footprint); of no cells, 1.
-  double scale = 0;
-  struct Part {
-    int cell;
-    double share;  ///< of what lies in these cells
-  };
-  boost::container::small_vector<Part, 4> parts;
-
-  /// In a 3-D world as if the noise in height were independent of the plane's. Where the noise is
-  /// small against a cell and the mean is well inside, the mean's cell decides.
-  static MeasuredIn of(const Gaussian& measurement, const Footprint& place);
-};
 
 /// A density over a place that says: it is there somewhere. Uniform at first; where a sensor looked
 /// and saw nothing it becomes less. Piecewise constant on the footprint's cells. A value.
@@ -73,8 +25,8 @@ class Somewhere {
   /// The same of what has been taken down for the place once, for all densities over it.
   double likelihood(const MeasuredIn& measurement) const;
 
-  /// The density's mass in view; `visible` is per cell of the footprint the share in view.
-  double mass(const std::vector<double>& visible) const;
+  /// The density's mass in what of the footprint's cells is in view, or in some place.
+  double mass(const CellShares& shares) const;
   /// The density's mass in each of the footprint's cells, in order.
   double mass_in(int cell_position) const;
 
@@ -85,7 +37,7 @@ class Somewhere {
   double entropy() const;
 
   /// After a miss: the share p of the density in view goes, and the rest is normalised.
-  void miss(double p, const std::vector<double>& visible);
+  void miss(double p, const CellShares& visible);
 
   /// The mixture of two densities over the same place; weights > 0, any sum.
   static Somewhere merge(double weight_a, const Somewhere& a, double weight_b, const Somewhere& b);
@@ -103,18 +55,32 @@ class Somewhere {
   void serialize(Archive& archive) {
     archive(looked_at_, weight_looked_);
   }
+  /// As it was held by checkpoints of versions 1 and 2: heights by cell, in the order of the grid.
+  template <typename Archive>
+  void load_by_cell(Archive& archive) {
+    std::shared_ptr<const PoolVector<double>> heights;
+    archive(heights, weight_looked_);
+    if (heights) set_in_grid_order(*heights);
+  }
+  /// Whether what was read is a density over the footprint.
+  bool fits() const { return !looked_at_ || looked_at_->fits(*footprint_); }
 
  private:
   /// How much of the density is uniform.
   double uniform() const { return looked_at_ ? 1 - weight_looked_ : 1.0; }
   /// Density in a cell over the uniform one.
   double relative(std::size_t i) const {
-    return looked_at_ ? weight_looked_ * (*looked_at_)[i] + uniform() : 1.0;
+    return looked_at_
+               ? weight_looked_ * looked_at_->at(static_cast<int>(i), *footprint_) + uniform()
+               : 1.0;
   }
+  /// All of the density as heights, to be changed.
+  std::shared_ptr<RelativeHeights> heights() const;
+  void set_in_grid_order(const PoolVector<double>& heights);
 
   std::shared_ptr<const Footprint> footprint_;
   /// The density is weight_looked_ * looked_at_ + (1 - weight_looked_), over the uniform density.
-  std::shared_ptr<const PoolVector<double>> looked_at_;
+  std::shared_ptr<const RelativeHeights> looked_at_;
   double weight_looked_ = 0;
 };
 

@@ -91,9 +91,10 @@ struct SomewhereDensity {
     s.weight += entering;
   }
   static void observe(State& s, Dice& dice) {
-    std::vector<double> visible;
+    std::vector<double> shares;
     for (std::size_t i = 0; i < place()->cells.size(); ++i)
-      visible.push_back(dice.chance(0.3) ? dice.uniform(0, 1) : dice.chance(0.5) ? 1 : 0);
+      shares.push_back(dice.chance(0.3) ? dice.uniform(0, 1) : dice.chance(0.5) ? 1 : 0);
+    const CellShares visible(shares, *place());
     const double p = dice.uniform(0, 0.99), seen = s.density.mass(visible);
     s.density.miss(p, visible);
     s.weight *= (1 - p * seen) / (1 - s.weight * p * seen);

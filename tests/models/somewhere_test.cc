@@ -26,10 +26,10 @@ std::shared_ptr<const Footprint> table(int dims) {
       Footprint::of(box({0.5, 1, 0.5}, {2.5, 2.5, 1.5}), world, dims));
 }
 
-std::vector<double> random_view(Dice& dice, std::size_t cells) {
-  std::vector<double> visible(cells);
+CellShares random_view(Dice& dice, const Footprint& place) {
+  std::vector<double> visible(place.cells.size());
   for (double& v : visible) v = dice.chance(0.3) ? dice.uniform(0, 1) : dice.chance(0.5) ? 1 : 0;
-  return visible;
+  return {visible, place};
 }
 
 double total(const Somewhere& s) {
@@ -57,7 +57,7 @@ class SomewhereIn : public testing::TestWithParam<int> {
   Somewhere looked_at() {
     Somewhere s(place);
     for (int i = 0; i < 4; ++i) {
-      s.miss(dice.uniform(0.1, 0.9), random_view(dice, place->cells.size()));
+      s.miss(dice.uniform(0.1, 0.9), random_view(dice, *place));
       s.enter(dice.uniform(0.1, 1), dice.uniform(0.01, 0.1));
     }
     return s;
@@ -77,7 +77,7 @@ TEST_P(SomewhereIn, MassStaysOneAfterAnySequence) {
           s = Somewhere::merge(dice.scale(1e-6, 1), s, dice.scale(1e-6, 1), other);
           break;
         default:
-          s.miss(dice.uniform(0, 0.999), random_view(dice, place->cells.size()));
+          s.miss(dice.uniform(0, 0.999), random_view(dice, *place));
       }
       ASSERT_NEAR(total(s), 1, 1e-10) << "a thousand normalisations";
       for (const double m : masses(s)) ASSERT_GE(m, 0);
@@ -88,7 +88,8 @@ TEST_P(SomewhereIn, MassStaysOneAfterAnySequence) {
 TEST_P(SomewhereIn, MassStaysOneWhereAllIsSeenAgainAndAgain) {
   Somewhere s = looked_at();
   const std::vector<double> before = masses(s);
-  for (int i = 0; i < 1000; ++i) s.miss(0.9, std::vector<double>(before.size(), 1.0));
+  const CellShares all(std::vector<double>(before.size(), 1.0), *place);
+  for (int i = 0; i < 1000; ++i) s.miss(0.9, all);
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_NEAR(s.mass_in(static_cast<int>(i)), before[i], kRounding);
 }
@@ -116,7 +117,7 @@ TEST_P(SomewhereIn, MissIsBayesOnTheCells) {
   for (int n = 0; n < 50; ++n) {
     Somewhere s = looked_at();
     std::vector<double> expected = masses(s);
-    const auto visible = random_view(dice, expected.size());
+    const auto visible = random_view(dice, *place);
     const double p = dice.uniform(0, 0.99);
     double seen = 0, sum = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -229,7 +230,7 @@ TEST_P(SomewhereIn, LikelihoodOfWideNoiseIsNearTheConvolution) {
       visible[i] = std::clamp((line - x) / kCell, 0.0, 1.0);
     }
     Somewhere s(place);
-    s.miss(p, visible);
+    s.miss(p, {visible, *place});
     const Gaussian z = random_measurement(dice, dice.scale(kCell / 2, 4 * kCell));
     const double off = std::abs(s.likelihood(z) - convolved(s, z)) * place->volume;
     worst = std::max(worst, off);
