@@ -246,6 +246,7 @@ Associated associate(const ScratchVector<PredictedCluster>& clusters,
   out.effort.work = (tied.hypotheses().size() + looked) * joint.anchors.size();
   out.effort.dropped =
       tied.dropped + dropped + prune(joint.hypotheses, limits.max_hypotheses, limits.min_weight);
+  forget_improbable(joint, background);
   out.clusters =
       split(std::move(joint), background, least == kLogZero ? 0 : std::exp(least - total));
   return out;

@@ -215,4 +215,27 @@ bool merge_nearest(Cluster& cluster, int max, const Background& background) {
   return any;
 }
 
+void forget_improbable(Cluster& cluster, const Background& background) {
+  const Limits& limits = background.knowledge.limits;
+  if (limits.scan_depth == 0 || limits.min_probability <= 0) return;
+  bool any = false;
+  for (std::size_t a = 0; a < cluster.anchors.size(); ++a) {
+    AnchorTree& tree = cluster.anchors[a];
+    double p = 0;
+    bool seen_of_late = false, there = false;
+    for (const Hypothesis& h : cluster.hypotheses) {
+      if (h.leaf[a] == Hypothesis::kNoLeaf) continue;
+      const Leaf& leaf = *tree.leaves[h.leaf[a]];
+      there = true;
+      seen_of_late = seen_of_late || !leaf.recent.empty();
+      p += std::exp(h.log_weight) * leaf.existence;
+    }
+    if (!there || seen_of_late || p >= limits.min_probability) continue;
+    for (Hypothesis& h : cluster.hypotheses) h.leaf[a] = Hypothesis::kNoLeaf;
+    tree.shown = Hypothesis::kNoLeaf;
+    any = true;
+  }
+  if (any) merge_equal(cluster.hypotheses);
+}
+
 }  // namespace anchord

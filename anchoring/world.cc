@@ -55,11 +55,19 @@ std::optional<Utime> World::newest(const Frame& frame) const {
   return it == newest_.end() ? std::nullopt : std::optional(it->second);
 }
 
+/// Those of each sensor's last few views: cameras pan to and fro, and what a late frame makes be
+/// folded anew has the views that it had.
 const Visibility& World::visibility(const MapFrame& frame) {
+  constexpr std::size_t kKept = 6;
   auto& kept = visibility_[{frame.robot, frame.sensor_name}];
-  if (!kept || !kept->same_for(frame))
-    kept = std::make_shared<const Visibility>(frame, *background_);
-  return *kept;
+  auto known = std::ranges::find_if(kept, [&](const auto& v) { return v->same_for(frame); });
+  if (known == kept.end()) {
+    if (kept.size() < kKept) kept.emplace_back();
+    known = kept.end() - 1;
+    *known = std::make_shared<const Visibility>(frame, *background_);
+  }
+  std::rotate(kept.begin(), known, known + 1);
+  return *kept.front();
 }
 
 void World::fold_from(std::size_t first) {

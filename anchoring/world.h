@@ -121,7 +121,9 @@ class World {
   std::shared_ptr<const Belief> belief_;
   std::deque<Step> recent_;  ///< the steps of the last max_lateness seconds, in order of utime
   std::map<std::pair<std::string, std::string>, Utime> newest_;  ///< by robot and sensor
-  std::map<std::pair<std::string, std::string>, std::shared_ptr<const Visibility>> visibility_;
+  /// Of each robot's sensors, the view that was met last first.
+  std::map<std::pair<std::string, std::string>, std::vector<std::shared_ptr<const Visibility>>>
+      visibility_;
   std::uint64_t late_frames_ = 0;
   std::int64_t taken_ = 0;  ///< frames and events
   Utime floor_ = 0;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "geometry/polygon.h"
 #include "geometry/quadrature.h"
 #include "geometry/standard_normal.h"
 
@@ -27,28 +27,6 @@ Bounds bounds_of(const std::vector<Eigen::Vector2d>& polygon) {
     bounds.max = bounds.max.cwiseMax(point);
   }
   return bounds;
-}
-
-/// How far a point is from a polygon's edge, squared, m^2; and on which side.
-struct Clearance {
-  double distance2;
-  bool inside;
-};
-
-Clearance clearance(const Eigen::Vector2d& point, const std::vector<Eigen::Vector2d>& polygon) {
-  Clearance out{std::numeric_limits<double>::infinity(), false};
-  const Eigen::Vector2d* from = &polygon.back();
-  for (const Eigen::Vector2d& to : polygon) {
-    const Eigen::Vector2d edge = to - *from, d = point - *from;
-    const double length2 = edge.squaredNorm();
-    const double at = length2 > 0 ? std::clamp(d.dot(edge) / length2, 0.0, 1.0) : 0.0;
-    out.distance2 = std::min(out.distance2, (d - at * edge).squaredNorm());
-    if ((from->y() > point.y()) != (to.y() > point.y()) &&
-        point.x() < from->x() + (point.y() - from->y()) / edge.y() * edge.x())
-      out.inside = !out.inside;
-    from = &to;
-  }
-  return out;
 }
 
 /// Mass of the polygon, given the upper factor of the covariance.
@@ -77,9 +55,9 @@ double mass(const Gaussian& density, const Region& region, int dims) {
       mean.y() + reach_y < bounds.min.y() || mean.y() - reach_y > bounds.max.y())
     return 0;
   // Most densities are narrow and stand far from every edge.
-  const Clearance clear = clearance(mean, region.polygon);
-  const bool apart = clear.distance2 > kAll * kAll * covariance.trace();
-  if (apart && !clear.inside) return 0;
+  const EdgeDistance edge = edge_distance(mean, region.polygon);
+  const bool apart = edge.distance2 > kAll * kAll * covariance.trace();
+  if (apart && !edge.inside) return 0;
   if (dims == 2) return apart ? 1 : polygon_mass(mean, upper_factor<2>(covariance), region.polygon);
 
   const double variance = std::max(density.covariance(2, 2), 1e-18), sigma = std::sqrt(variance);

@@ -1,6 +1,7 @@
 #include "geometry/polygon.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "geometry/region.h"
 
@@ -81,6 +82,22 @@ Gaussian moments_of(const Polygon& polygon) {
   g.covariance.topLeftCorner<2, 2>() = second / area - first * first.transpose() / (area * area);
   g.mean.head<2>() += origin;
   return g;
+}
+
+EdgeDistance edge_distance(const Eigen::Vector2d& point, const Polygon& polygon) {
+  EdgeDistance out{std::numeric_limits<double>::infinity(), false};
+  const Eigen::Vector2d* from = &polygon.back();
+  for (const Eigen::Vector2d& to : polygon) {
+    const Eigen::Vector2d edge = to - *from, d = point - *from;
+    const double length2 = edge.squaredNorm();
+    const double at = length2 > 0 ? std::clamp(d.dot(edge) / length2, 0.0, 1.0) : 0.0;
+    out.distance2 = std::min(out.distance2, (d - at * edge).squaredNorm());
+    if ((from->y() > point.y()) != (to.y() > point.y()) &&
+        point.x() < from->x() + (point.y() - from->y()) / edge.y() * edge.x())
+      out.inside = !out.inside;
+    from = &to;
+  }
+  return out;
 }
 
 }  // namespace anchord

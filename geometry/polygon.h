@@ -24,4 +24,11 @@ std::optional<Polygon> common_part(const Polygon& a, const Polygon& b);
 /// Mean and covariance of the uniform density over a polygon with an area, in the plane.
 Gaussian moments_of(const Polygon& polygon);
 
+/// How far a point is from a polygon's edge, squared, m^2; and on which side.
+struct EdgeDistance {
+  double distance2;
+  bool inside;
+};
+EdgeDistance edge_distance(const Eigen::Vector2d& point, const Polygon& polygon);
+
 }  // namespace anchord

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <span>
 
+#include "geometry/polygon.h"
 #include "geometry/view.h"
 
 namespace anchord {
@@ -146,14 +147,16 @@ double MapView::sampled_share(const Vector3d& box_min, const Vector3d& size) con
 
 /// Exact: the area of the polygon clipped to the box (Sutherland, Hodgman, 1974).
 double MapView::polygon_share(const Vector3d& box_min, const Vector3d& box_max) const {
+  const Vector2d size = (box_max - box_min).head<2>();
+  const EdgeDistance edge = edge_distance(box_min.head<2>() + size / 2, polygon_.polygon);
+  if (4 * edge.distance2 > size.squaredNorm()) return edge.inside ? 1 : 0;
   Region part{polygon_.polygon};
   for (int axis = 0; axis < 2 && !part.polygon.empty(); ++axis) {
     part.polygon = clip(part.polygon, axis, box_min[axis], true);
     if (!part.polygon.empty()) part.polygon = clip(part.polygon, axis, box_max[axis], false);
   }
   if (part.polygon.empty()) return 0;
-  const double area = (box_max - box_min).head<2>().prod();
-  const double share = part.area() / area;
+  const double share = part.area() / size.prod();
   // Rounding must not keep a cell that is wholly seen from being so.
   return share > 1 - 1e-9 ? 1 : share;
 }

@@ -154,8 +154,9 @@ void read_places(const JsonValue& root, Knowledge& knowledge) {
 
 void read_limits(const JsonValue& root, Knowledge& knowledge) {
   const auto section = root.find("hypotheses");
-  if (!section || !section->object_of({"max", "min_weight", "gate_probability", "scan_depth",
-                                       "min_existence", "min_symbol", "frame_budget"})) {
+  if (!section ||
+      !section->object_of({"max", "min_weight", "gate_probability", "scan_depth", "min_existence",
+                           "min_probability", "min_symbol", "frame_budget"})) {
     return;
   }
   constexpr int kMost = 1'000'000;
@@ -165,6 +166,8 @@ void read_limits(const JsonValue& root, Knowledge& knowledge) {
   section->read("gate_probability", limits.gate_probability, kAboveImpossible);
   section->read("scan_depth", limits.scan_depth, 0, kMost);
   section->read("min_existence", limits.min_existence, kBelowCertain);
+  limits.min_probability = limits.min_existence;
+  section->read("min_probability", limits.min_probability, kBelowCertain);
   limits.min_symbol = std::min(limits.min_symbol, limits.min_weight);
   section->read("min_symbol", limits.min_symbol, {0, 0.1});
   section->read("frame_budget", limits.frame_budget, {0, 60});

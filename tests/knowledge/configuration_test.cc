@@ -216,6 +216,7 @@ TEST(Configuration, AFramesTimeIsNotBoundedUnlessItIsSaid) {
 }
 
 TEST(Configuration, NoSymbolIsRuledOutUnlessTheEngineIsExact) {
+  EXPECT_EQ(with(R"("hypotheses": {"min_existence": 1e-3})").limits.min_probability, 1e-3);
   EXPECT_EQ(with("").limits.min_symbol, 1e-6);
   EXPECT_EQ(with(R"("hypotheses": {"min_weight": 1e-3})").limits.min_symbol, 1e-6);
   EXPECT_EQ(with(R"("hypotheses": {"min_weight": 0})").limits.min_symbol, 0);
