@@ -75,11 +75,10 @@ TEST(Entropy, SomewhereIsExactBeforeAndAfterALook) {
   const Background background(room());
   Somewhere somewhere(background.footprint(-1));
   EXPECT_NEAR(somewhere.entropy(), std::log(100.0), 1e-12);  // uniform over 10 x 10 m
-  const MapView view =
-      MapView::place({View::Type::kPolygon, {}, {}, {}, 0, 0, {{0, 0}, {5, 0}, {5, 10}, {0, 10}}},
-                     std::nullopt, 2)
-          .value();
-  somewhere.miss(0.8, background.footprint(-1)->visible(view));
+  const Footprint& cells = *somewhere.footprint();
+  std::vector<double> left_half;
+  for (const Gaussian& cell : cells.moments) left_half.push_back(cell.mean.x() < 5 ? 1 : 0);
+  somewhere.miss(0.8, {left_half, cells});
   // Half of the room keeps 0.2 of its mass: 1/6 against 5/6 over 50 m^2 each.
   const double expected = binary_entropy(1.0 / 6) + std::log(50.0);
   EXPECT_NEAR(somewhere.entropy(), expected, 1e-9);
