@@ -20,7 +20,13 @@ World folded(const enumeration::Scene& scene, const Limits& limits) {
   return world;
 }
 
-constexpr Limits kNoLimits{0, 0, 1, 0, 0, 0};
+constexpr Limits kNoLimits{.max_hypotheses = 0,
+                           .min_weight = 0,
+                           .gate_probability = 1,
+                           .scan_depth = 0,
+                           .min_existence = 0,
+                           .min_probability = 0,
+                           .min_symbol = 0};
 
 /// What limits lose in one scene.
 struct Loss {
