@@ -60,13 +60,15 @@ std::optional<Utime> World::newest(const Frame& frame) const {
 const Visibility& World::visibility(const MapFrame& frame) {
   constexpr std::size_t kKept = 6;
   auto& kept = visibility_[{frame.robot, frame.sensor_name}];
-  auto known = std::ranges::find_if(kept, [&](const auto& v) { return v->same_for(frame); });
-  if (known == kept.end()) {
+  std::size_t known = 0;
+  while (known < kept.size() && !kept[known]->same_for(frame)) ++known;
+  if (known == kept.size()) {
     if (kept.size() < kKept) kept.emplace_back();
-    known = kept.end() - 1;
-    *known = std::make_shared<const Visibility>(frame, *background_);
+    known = kept.size() - 1;
+    kept[known] = std::make_shared<const Visibility>(frame, *background_);
   }
-  std::rotate(kept.begin(), known, known + 1);
+  const auto at = kept.begin() + static_cast<std::ptrdiff_t>(known);
+  std::rotate(kept.begin(), at, at + 1);
   return *kept.front();
 }
 
