@@ -221,6 +221,7 @@ void forget_improbable(Cluster& cluster, const Background& background) {
   bool any = false;
   for (std::size_t a = 0; a < cluster.anchors.size(); ++a) {
     AnchorTree& tree = cluster.anchors[a];
+    if (!tree.anchor->name.empty() || !tree.anchor->alias.empty()) continue;
     double p = 0;
     bool seen_of_late = false, there = false;
     for (const Hypothesis& h : cluster.hypotheses) {

@@ -18,10 +18,11 @@ namespace anchord {
 /// Returns whether any were made one.
 bool merge_nearest(Cluster& cluster, int max, const Background& background);
 
-/// Lets go of anchors that over all hypotheses exist with less than `min_probability` though they
-/// may with more in some, once none of their versions had a detection in the last `scan_depth`
-/// frames: until then that may grow. Else a place that is seldom in view gathers them by the
-/// hundred. With a `scan_depth` of 0 none goes.
+/// Lets go of anchors that never had a name and that over all hypotheses exist with less than
+/// `min_probability`, though they may with more in some, once none of their versions had a
+/// detection in the last `scan_depth` frames: until then that may grow. Else a place that is seldom
+/// in view gathers them by the hundred. What had a name may come back, and is then the same object.
+/// With a `scan_depth` of 0 none goes.
 void forget_improbable(Cluster& cluster, const Background& background);
 
 }  // namespace anchord

@@ -88,8 +88,8 @@ class [[nodiscard]] Configuration {
 ///   true, `cost` 0, `dwell` 0 s, `noise` {class: covariance, "default": covariance}, default the
 ///   sensor's own position covariance. It needs a view that sees something, in the sensor's frame.
 /// - `hypotheses`: `max` 100, `min_weight` 1e-6, `gate_probability` 0.9999, `scan_depth` 20,
-///   `min_existence` 1e-4; `min_probability` is `min_existence`; `min_symbol` 1e-6, or `min_weight`
-///   where that is less.
+///   `min_existence` 1e-4; `min_probability` a hundredth of that; `min_symbol` 1e-6, or
+///   `min_weight` where that is less.
 /// - `maintenance`: `planner` "greedy" (or "lookahead"), `threshold` 1 nat, `omega` 0.75,
 ///   `gain_norm` 5 nat, `cost_scale` the diagonal of the bounds, `speed` 0.5 m/s, `step` 1 s,
 ///   `clearance` 0.3 m, `horizon` 4, `timeout` 60 s, `enabled` false;

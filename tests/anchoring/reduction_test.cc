@@ -174,7 +174,8 @@ TEST_F(Reduction, WhatIsSaidOfEachAnchorAloneStaysAsItIs) {
 }
 
 TEST_F(Reduction, ForgetsWhatHardlyExistsInAllWorldsTogetherOnceItIsNotSeenAnyMore) {
-  ASSERT_EQ(background_->knowledge.limits.min_probability, 1e-4);
+  const World world(small_world(R"({"hypotheses": {"min_probability": 1e-4}})"));
+  const Background& background = *world.background();
   Leaf seen = at(2, 0.5);
   seen.recent.push_back(7 << 16);
   const Cluster before = cluster_of({{at(0)}, {at(1, 0.5)}, {seen}, {at(3, 0.5)}},
@@ -182,14 +183,19 @@ TEST_F(Reduction, ForgetsWhatHardlyExistsInAllWorldsTogetherOnceItIsNotSeenAnyMo
                                      {1e-3, {0, kNone, kNone, 0}},
                                      {1e-4, {0, 0, 0, kNone}}});
   Cluster cluster = before;
-  forget_improbable(cluster, *background_);
+  forget_improbable(cluster, background);
   EXPECT_NEAR(marginal_of(cluster, 0).p, 1, kRounding);
   EXPECT_EQ(cluster.hypotheses[2].leaf[1], kNone) << "5e-5, and not seen of late";
   EXPECT_NEAR(marginal_of(cluster, 2).p, 5e-5, kRounding) << "it may grow";
   EXPECT_NEAR(marginal_of(cluster, 3).p, 5e-4, kRounding);
+  // What once had a name may come back.
+  Cluster named = before;
+  named.anchors[1].anchor = std::make_shared<const Anchor>(Anchor{1, "cup-1", "", std::nullopt});
+  forget_improbable(named, background);
+  EXPECT_NEAR(marginal_of(named, 1).p, 5e-5, kRounding);
   // Where nothing tells two hypotheses apart any more, they are one.
   Cluster alone = cluster_of({{at(0)}, {at(1, 0.5)}}, {{0.9999, {0, kNone}}, {1e-4, {0, 0}}});
-  forget_improbable(alone, *background_);
+  forget_improbable(alone, background);
   ASSERT_EQ(alone.hypotheses.size(), 1u);
   EXPECT_NEAR(alone.hypotheses[0].log_weight, 0, kRounding);
 }
