@@ -200,5 +200,12 @@ TEST_F(Reduction, ForgetsWhatHardlyExistsInAllWorldsTogetherOnceItIsNotSeenAnyMo
   EXPECT_NEAR(alone.hypotheses[0].log_weight, 0, kRounding);
 }
 
+TEST(Limits, WhatIsForgottenFollowsWhatMayExist) {
+  const auto forgotten = [](const char* more) { return small_world(more).limits.min_probability; };
+  EXPECT_DOUBLE_EQ(forgotten("{}"), 1e-6);
+  EXPECT_DOUBLE_EQ(forgotten(R"({"hypotheses": {"min_existence": 1e-3}})"), 1e-5);
+  EXPECT_EQ(forgotten(R"({"hypotheses": {"min_probability": 0}})"), 0);
+}
+
 }  // namespace
 }  // namespace anchord

@@ -215,12 +215,6 @@ TEST(Configuration, AFramesTimeIsNotBoundedUnlessItIsSaid) {
   EXPECT_EQ(with(R"("hypotheses": {"frame_budget": 0.005})").limits.frame_budget, 0.005);
 }
 
-TEST(Configuration, WhatIsForgottenFollowsWhatMayExist) {
-  EXPECT_DOUBLE_EQ(with("").limits.min_probability, 1e-6);
-  EXPECT_DOUBLE_EQ(with(R"("hypotheses": {"min_existence": 1e-3})").limits.min_probability, 1e-5);
-  EXPECT_EQ(with(R"("hypotheses": {"min_probability": 0})").limits.min_probability, 0);
-}
-
 TEST(Configuration, NoSymbolIsRuledOutUnlessTheEngineIsExact) {
   EXPECT_EQ(with("").limits.min_symbol, 1e-6);
   EXPECT_EQ(with(R"("hypotheses": {"min_weight": 1e-3})").limits.min_symbol, 1e-6);
