@@ -36,6 +36,14 @@ Walls walls_before(const MapView& view, const std::optional<Eigen::Vector3d>& ey
                                   std::max(seen[2], eye->x()), std::max(seen[3], eye->y())});
 }
 
+/// The share of a box that is in view and that no wall hides.
+double share_in_view(const MapView& view, const std::optional<Eigen::Vector3d>& eye,
+                     const Walls& walls, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                     int dims) {
+  const double share = view.share(low, high);
+  return eye && share > 0 ? share * clear_share(walls, *eye, low, high, dims) : share;
+}
+
 Look look_at(const MapView& view, const std::optional<Eigen::Vector3d>& eye, const Walls& walls,
              const Background& background) {
   const Tiling& tiling = *background.tiling;
@@ -53,9 +61,8 @@ Look look_at(const MapView& view, const std::optional<Eigen::Vector3d>& eye, con
     for (int j = 0; j < Tiling::kEdge && y0 + j < grid.rows; ++j)
       for (int i = 0; i < Tiling::kEdge && x0 + i < grid.columns; ++i) {
         const int cell = (y0 + j) * grid.columns + x0 + i;
-        const Eigen::Vector3d low = grid.corner_min(cell), high = grid.corner_max(cell);
-        double share = view.share(low, high);
-        if (eye && share > 0) share *= clear_share(walls, *eye, low, high, background.dims);
+        const double share = share_in_view(view, eye, walls, grid.corner_min(cell),
+                                           grid.corner_max(cell), background.dims);
         tile.share[j * Tiling::kEdge + i] = share;
         any = any || share > 0;
       }
@@ -135,9 +142,7 @@ std::vector<double> Visibility::shares_of(const Footprint& footprint) const {
 }
 
 double Visibility::share_of(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
-  const double share = view_.share(low, high);
-  if (!eye_ || share == 0) return share;
-  return share * clear_share(walls_, *eye_, low, high, background_->dims);
+  return share_in_view(view_, eye_, walls_, low, high, background_->dims);
 }
 
 double Visibility::clear_of_walls(const Gaussian& density) const {

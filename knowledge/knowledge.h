@@ -195,7 +195,7 @@ struct Limits {
   double gate_probability = 0.9999;  ///< 1: no gate
   int scan_depth = 20;               ///< frames; 0: none
   double min_existence = 1e-4;       ///< of a leaf
-  double min_probability = 1e-4;     ///< of an anchor without a detection in scan_depth frames
+  double min_probability = 1e-4;     ///< of an unnamed anchor not seen for scan_depth frames
   double min_symbol = 1e-6;          ///< belief in a symbol after an update: none is ruled out
   double frame_budget = 0;           ///< s, what a frame may take; 0: no bound
 };

@@ -16,7 +16,7 @@ from trouble import Trouble
 
 MB = 1 << 20
 # What bounds a run; each is about twice what an hour takes.
-RSS_MB, FDS, THREADS, WAL_MB = 512, 128, 64, 64
+RSS_MB, FDS, THREADS, WAL_MB = 256, 128, 64, 64
 
 COLUMNS = (
     ["elapsed_s", "home_s", "frames_per_s", "ack_p50_ms", "ack_p99_ms"]

@@ -12,6 +12,8 @@
 namespace anchord {
 namespace {
 
+using enumeration::kNoLimits;
+
 World folded(const enumeration::Scene& scene, const Limits& limits) {
   Knowledge knowledge = scene.knowledge;
   knowledge.limits = limits;
@@ -19,14 +21,6 @@ World folded(const enumeration::Scene& scene, const Limits& limits) {
   apply(world, scene.frames);
   return world;
 }
-
-constexpr Limits kNoLimits{.max_hypotheses = 0,
-                           .min_weight = 0,
-                           .gate_probability = 1,
-                           .scan_depth = 0,
-                           .min_existence = 0,
-                           .min_probability = 0,
-                           .min_symbol = 0};
 
 /// What limits lose in one scene.
 struct Loss {

@@ -37,13 +37,7 @@ class Maker {
 
   void make_world() {
     Knowledge& k = known();
-    k.limits = {.max_hypotheses = 0,
-                .min_weight = 0,
-                .gate_probability = 1,
-                .scan_depth = 0,
-                .min_existence = 0,
-                .min_probability = 0,
-                .min_symbol = 0};
+    k.limits = kNoLimits;
     k.dims = variety_.three_d ? 3 : 2;
     k.cell = dice_.chance(0.5) ? 1 : 0.5;
     k.bounds_min.head<2>() = k.cell * Eigen::Vector2d(dice_.integer(-3, 3), dice_.integer(-3, 3));

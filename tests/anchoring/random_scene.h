@@ -10,6 +10,15 @@
 
 namespace anchord::enumeration {
 
+/// Limits that leave the engine exact.
+inline constexpr Limits kNoLimits{.max_hypotheses = 0,
+                                  .min_weight = 0,
+                                  .gate_probability = 1,
+                                  .scan_depth = 0,
+                                  .min_existence = 0,
+                                  .min_probability = 0,
+                                  .min_symbol = 0};
+
 /// What a random scene has, beside detections, misses and clutter.
 struct Variety {
   bool three_d = false;         ///< a 3-D world
