@@ -13,7 +13,10 @@ namespace {
 
 void move_density(ModelState& state, const BehaviourModel& model, double dt, int dims) {
   auto* kinematic = std::get_if<Kinematic>(&state.density);
-  if (!kinematic) return;
+  if (!kinematic) {
+    if (model.stir > 0) std::get<Somewhere>(state.density).stir(model.stir * dt);
+    return;
+  }
   if (model.shares())
     predict_shared(*kinematic, model, dt, dims);
   else if (model.kind == BehaviourModel::Kind::kConstantVelocity)

@@ -153,9 +153,6 @@ void read_places(const JsonValue& root, Knowledge& knowledge) {
 }
 
 void read_limits(const JsonValue& root, Knowledge& knowledge) {
-  constexpr double kForgotten =
-      0.01;  // of min_existence: what may be somebody's other history stays
-  knowledge.limits.min_probability = kForgotten * knowledge.limits.min_existence;
   const auto section = root.find("hypotheses");
   if (!section ||
       !section->object_of({"max", "min_weight", "gate_probability", "scan_depth", "min_existence",
@@ -169,6 +166,7 @@ void read_limits(const JsonValue& root, Knowledge& knowledge) {
   section->read("gate_probability", limits.gate_probability, kAboveImpossible);
   section->read("scan_depth", limits.scan_depth, 0, kMost);
   section->read("min_existence", limits.min_existence, kBelowCertain);
+  constexpr double kForgotten = 0.01;  // what may be somebody's other history stays
   limits.min_probability = kForgotten * limits.min_existence;
   section->read("min_probability", limits.min_probability, kBelowCertain);
   limits.min_symbol = std::min(limits.min_symbol, limits.min_weight);

@@ -37,7 +37,7 @@ struct BehaviourModel {
   /// this probability one within reach hides it if it gives none itself. 0: it does not share.
   double shared_probability = 0;
   double reach = 0;  ///< m: how far from it along each axis such a detection is, one sigma
-  double stir = 0;   ///< 1/s at which that place among the others is forgotten
+  double stir = 0;   ///< 1/s at which that place among the others, or in `somewhere`, is forgotten
   /// Index of a scalar in which such a detection exceeds each of its objects; -1: none.
   int growing = -1;
   bool implied = false;  ///< somewhere: not configured; a leaf has it only after an event
@@ -195,7 +195,7 @@ struct Limits {
   double gate_probability = 0.9999;  ///< 1: no gate
   int scan_depth = 20;               ///< frames; 0: none
   double min_existence = 1e-4;       ///< of a leaf
-  double min_probability = 1e-4;     ///< of an unnamed anchor not seen for scan_depth frames
+  double min_probability = 1e-6;     ///< of an unnamed anchor not seen for scan_depth frames
   double min_symbol = 1e-6;          ///< belief in a symbol after an update: none is ruled out
   double frame_budget = 0;           ///< s, what a frame may take; 0: no bound
 };

@@ -62,11 +62,13 @@ std::optional<BehaviourModel> read_model(const JsonValue& value, const Knowledge
       read_by_axis(value, "initial_velocity_variance", model.initial_velocity_variance);
       break;
     case BehaviourModel::Kind::kSomewhere:
-      value.object_of({"kind", "place", "rate", "found_in", "initial_weight", "detectable"});
+      value.object_of(
+          {"kind", "place", "rate", "stir", "found_in", "initial_weight", "detectable"});
       if (const auto place = value.find("place")) {
         model.place = place->one_of(names(knowledge.places), "place").value_or(-1);
       }
       value.read("rate", model.rate, kRate);
+      value.read("stir", model.stir, kRate);
       break;
   }
   value.read("detectable", model.detectable);

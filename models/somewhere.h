@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -32,6 +33,10 @@ class Somewhere {
 
   /// Mass that enters is uniform: gamma <- (w gamma + dw U) / (w + dw). Weights >= 0, dw > 0.
   void enter(double weight, double entering);
+
+  /// Time in which it went to another spot of the place so many times, on average: what a look has
+  /// told fades. gamma <- e^-times gamma + (1 - e^-times) U; times >= 0.
+  void stir(double times) { enter(std::exp(-times), -std::expm1(-times)); }
 
   /// Differential entropy, nat: exact, the density is constant on pieces.
   double entropy() const;

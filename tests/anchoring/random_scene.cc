@@ -29,6 +29,9 @@ class Maker {
     make_sites();
     make_frames();
     if (variety_.ranged) add_ranges(scene_, dice_);
+    for (ObjectClass& c : known().classes)
+      for (BehaviourModel& model : c.models)
+        if (!model.tracked() && dice_.chance(0.4)) model.stir = dice_.scale(0.03, 0.5);
   }
   Scene take() { return std::move(scene_); }
 

@@ -136,7 +136,7 @@ TEST(Configuration, ClassesTakeWhatIsMissingFromDefault) {
                 "transitions": [{"from": 0, "to": 1, "rate": 0.2}],
                 "arrivals": [{"place": "table", "rate": 0.1}]},
     "cup": {"departure_rate": 0.5},
-    "box": {"models": [{"kind": "somewhere", "place": "kitchen", "rate": 0.3, "found_in": 1},
+    "box": {"models": [{"kind": "somewhere", "place": "kitchen", "rate": 0.3, "stir": 0.02, "found_in": 1},
                        {"kind": "constant_position"},
                        {"kind": "constant_velocity", "initial_weight": 3, "detectable": false}],
             "transitions": [], "arrivals": []}})");
@@ -161,6 +161,7 @@ TEST(Configuration, ClassesTakeWhatIsMissingFromDefault) {
   EXPECT_EQ(box.models[0].place, knowledge.find_place("kitchen"));
   EXPECT_EQ(box.models[0].initial_weight, 0);
   EXPECT_EQ(box.models[0].found_in, 1);
+  EXPECT_EQ(box.models[0].stir, 0.02);
   EXPECT_EQ(box.models[1].initial_weight, 0.25);  // 1 of 4
   EXPECT_EQ(box.models[2].initial_weight, 0.75);
   EXPECT_FALSE(box.models[2].detectable);

@@ -150,6 +150,23 @@ TEST_P(SomewhereIn, WhatEntersAnEmptyModelIsUniform) {
   EXPECT_EQ(masses(s), masses(Somewhere(place)));
 }
 
+TEST_P(SomewhereIn, WhatIsStirredForgetsWhereItWasNot) {
+  for (int n = 0; n < 50; ++n) {
+    const Somewhere before = looked_at();
+    const double first = dice.scale(1e-3, 1), second = dice.scale(1e-3, 1);
+    Somewhere once = before, twice = before;
+    once.stir(first + second);
+    twice.stir(first);
+    twice.stir(second);
+    const double stays = std::exp(-first - second);
+    for (int i = 0; i < static_cast<int>(place->cells.size()); ++i) {
+      EXPECT_NEAR(once.mass_in(i), stays * before.mass_in(i) + (1 - stays) * place->share[i],
+                  kRounding);
+      EXPECT_NEAR(twice.mass_in(i), once.mass_in(i), kRounding);
+    }
+  }
+}
+
 TEST_P(SomewhereIn, MergeIsTheMixture) {
   for (int n = 0; n < 50; ++n) {
     const Somewhere a = looked_at(), b = looked_at();
