@@ -1,5 +1,6 @@
 // anchord: the daemon. Detections come in over LCM and HTTP, the belief goes out.
 
+#include <malloc.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -26,6 +27,14 @@ int fail(const std::string& message) {
   return kFailed;
 }
 
+/// A checkpoint takes a dozen megabytes for a moment. malloc puts such blocks among the others once
+/// it has seen some of them freed, and does not get them back if anything comes to lie behind; on
+/// pages of their own they go when they are freed.
+void give_large_blocks_back() {
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  mallopt(M_TRIM_THRESHOLD, 16 << 20);  // else this would be 128 KiB from now on
+}
+
 /// Waits for SIGTERM or SIGINT, which every thread must have blocked.
 void await_end(const sigset_t& signals) {
   int signal = 0;
@@ -34,6 +43,7 @@ void await_end(const sigset_t& signals) {
 
 /// Serves until a signal ends it; the belief is restored meanwhile, so that one ends that too.
 int serve(const anchord::Knowledge& knowledge, const anchord::ServiceOptions& options) {
+  give_large_blocks_back();
   // Before any thread is started, so that all of them inherit it.
   sigset_t signals;
   sigemptyset(&signals);

@@ -9,6 +9,7 @@ import threading
 import time
 
 SLACK = 1e-6  # sums of rounded doubles
+LATENESS = 2_000_000  # us by which a frame may be late: world.max_lateness of home.json
 
 
 class Violations:
@@ -115,17 +116,26 @@ def check_hypotheses(body: bytes, v: Violations) -> dict:
 
 
 class Names:
-    """Names count up: one that was not among all anchors a poll ago is larger than any that was."""
+    """Names count up: one that was not among all anchors a poll ago is larger than any that was.
+    Only a late frame may bring one back that was let go: within that time, and as what it was."""
 
     def __init__(self) -> None:
         self.known: set[str] = set()
         self.most: dict[str, int] = {}
+        self.gone: dict[str, int] = {}  # since which utime, those of late
+        self.utime = 0
 
     def follow(self, answer: dict, v: Violations) -> None:
         """Of all anchors (min_p=0), the polls in order of time."""
         names = {o["id"] for o in answer["objects"] if not o["id"].startswith("new-")}
         fresh: dict[str, int] = {}
-        for name in names - self.known:
+        # Between two polls nobody knows what was there: it may have come back with the first of
+        # the frames between them.
+        self.gone = {n: since for n, since in self.gone.items() if self.utime - since <= LATENESS}
+        for name in self.known - names:
+            self.gone[name] = answer["utime"]
+        back = (names - self.known) & self.gone.keys()
+        for name in names - self.known - back:
             kind, _, number = name.rpartition("-")
             v.hold(
                 int(number) > self.most.get(kind, 0),
@@ -135,7 +145,9 @@ class Names:
             fresh[kind] = max(fresh.get(kind, 0), int(number))
         for kind, number in fresh.items():
             self.most[kind] = max(self.most.get(kind, 0), number)
-        self.known = names
+        for name in back:
+            del self.gone[name]
+        self.known, self.utime = names, answer["utime"]
 
 
 class Worlds:

@@ -74,14 +74,22 @@ class Invariants(unittest.TestCase):
 
     def test_names_are_never_used_again(self):
         names = invariants.Names()
+        second = 0
 
         def poll(*ids):
-            return told(names.follow, {"objects": [{"id": i} for i in ids]})
+            nonlocal second
+            second += 1
+            answer = {"utime": 1_000_000 * second, "objects": [{"id": i} for i in ids]}
+            return told(names.follow, answer)
 
         self.assertEqual(poll("cup-1", "cup-2", "new-7"), {})
         self.assertEqual(poll("cup-2", "mug-1", "cup-4"), {})
         self.assertEqual(poll("cup-4", "cup-3"), {"name": 1})
-        self.assertEqual(poll("cup-1"), {"name": 1})
+        self.assertEqual(poll("cup-1", "cup-4"), {}, "a late frame may bring one back")
+        self.assertEqual(poll("cup-1"), {})
+        for _ in range(3):
+            self.assertEqual(poll("cup-1"), {})
+        self.assertEqual(poll("cup-1", "cup-4"), {"name": 1}, "but not after that")
 
     def test_worlds_count_up(self):
         def message(utime, seq):
