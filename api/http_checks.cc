@@ -20,8 +20,9 @@ std::optional<HttpResponse> ask_door(const http::request_header<>& request, Http
     if (request.count(name) != 1) return std::nullopt;
     return view(request[name]);
   };
-  HttpCaller caller{view(request.method_string()), view(request.target()), field(http::field::host),
-                    field(http::field::origin), field(http::field::authorization)};
+  HttpCaller caller{view(request.method_string()),     view(request.target()),
+                    field(http::field::host),          field(http::field::origin),
+                    field(http::field::authorization), field(http::field::sec_websocket_protocol)};
   if (request.count(http::field::origin) > 1) caller.origin = "null";  // nobody's
   auto refused = core.door.refuse(caller);
   if (refused) ++(refused->status == 401 ? core.counters.unauthorized : core.counters.foreign);

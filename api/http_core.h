@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "api/http_server.h"
+#include "api/stream.h"
 
 namespace anchord {
 
@@ -30,6 +31,8 @@ class HttpSession {
   virtual void refuse() = 0;
   /// From any thread: closes if no request has begun, or at once if it is forced.
   virtual void stop(bool forced) = 0;
+  /// From any thread: there may be something new to tell a stream.
+  virtual void wake() {}
 };
 
 /// A reply that is still out keeps it alive beyond the server, so that it can always be given; it
@@ -37,12 +40,18 @@ class HttpSession {
 struct HttpCore : std::enable_shared_from_this<HttpCore> {
   using tcp = boost::asio::ip::tcp;
 
-  HttpCore(HttpHandler the_handler, const HttpLimits& the_limits, HttpDoor the_door)
-      : handler(std::move(the_handler)), limits(the_limits), door(std::move(the_door)) {}
+  HttpCore(HttpHandler the_handler, const HttpLimits& the_limits, HttpDoor the_door,
+           StreamOpener the_streams)
+      : handler(std::move(the_handler)),
+        limits(the_limits),
+        door(std::move(the_door)),
+        streams(std::move(the_streams)) {}
 
   void accept();
   void accepted(tcp::socket socket);
   void remove(const std::shared_ptr<HttpSession>& session) noexcept;
+  /// One session goes on with another's connection. False: the server ends.
+  bool replace(const std::shared_ptr<HttpSession>& session, std::shared_ptr<HttpSession> by);
   std::vector<std::shared_ptr<HttpSession>> all_sessions();
   /// Closes the one that has been idle for longest, if any is. The caller holds the mutex.
   void evict_idle();
@@ -56,10 +65,11 @@ struct HttpCore : std::enable_shared_from_this<HttpCore> {
   HttpHandler handler;
   const HttpLimits limits;
   const HttpDoor door;
+  StreamOpener streams;
   HttpCounters counters;
   tcp::acceptor acceptor{boost::asio::make_strand(io)};
   boost::asio::steady_timer accept_again{acceptor.get_executor()};
-  std::atomic<bool> stopping{false};
+  std::atomic<bool> stopping{false}, waking{false};
   std::mutex mutex;
   std::condition_variable removed;
   std::unordered_set<std::shared_ptr<HttpSession>> sessions;   // guarded by mutex

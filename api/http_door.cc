@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "api/stream.h"
+
 namespace anchord {
 namespace {
 
@@ -73,13 +75,12 @@ HttpDoor loopback_door() {
 HttpDoor token_door(BearerToken token, std::function<bool(std::string_view)> is_public) {
   return {[token, is_public = std::move(is_public)](
               const HttpCaller& caller) -> std::optional<HttpResponse> {
-            // A browser cannot set this field on a WebSocket: when there is one, its token comes
-            // as a subprotocol (Sec-WebSocket-Protocol), becomes part of HttpCaller, and is
-            // admitted here like the field's.
             if (caller.authorization && token.admits(*caller.authorization)) return std::nullopt;
+            const auto offered = caller.protocols ? offered_token(*caller.protocols) : std::nullopt;
+            if (offered && token.admits("Bearer " + *offered)) return std::nullopt;
             if ((caller.method == "GET" || caller.method == "HEAD") && is_public(caller.target))
               return std::nullopt;
-            return unauthorized(caller.authorization.has_value());
+            return unauthorized(caller.authorization || offered);
           },
           true};
 }

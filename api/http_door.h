@@ -16,6 +16,7 @@ struct HttpCaller {
   std::optional<std::string_view> host;           ///< missing only where HTTP/1.0 allows that
   std::optional<std::string_view> origin;         ///< browsers send it, others do not
   std::optional<std::string_view> authorization;  ///< missing also where it was sent twice
+  std::optional<std::string_view> protocols;      ///< Sec-WebSocket-Protocol; see kTokenProtocol
 };
 
 /// Who is let in, asked before a request's body is read.
@@ -33,9 +34,10 @@ struct HttpDoor {
 /// 403 for a page of another origin. Any port will do: behind a tunnel it is another one.
 HttpDoor loopback_door();
 
-/// A door that asks for a token: 401 without it. `is_public` says of which GET targets anybody may
-/// have the answer. Hosts and origins do not matter then: no page of another origin has the token,
-/// nor may it send that field here, since no answer allows it to (CORS).
+/// A door that asks for a token, as Authorization or as a WebSocket's subprotocol: 401 without it.
+/// `is_public` says of which GET targets anybody may have the answer. Hosts and origins do not
+/// matter then: no page of another origin has the token, nor may it send that field here, since no
+/// answer allows it to (CORS).
 HttpDoor token_door(BearerToken token, std::function<bool(std::string_view target)> is_public);
 
 /// Whether a Host field's value, with a port or without, means this machine: `localhost`, what is

@@ -170,6 +170,14 @@ void HttpCore::remove(const std::shared_ptr<HttpSession>& session) noexcept {
   removed.notify_all();
 }
 
+bool HttpCore::replace(const std::shared_ptr<HttpSession>& session,
+                       std::shared_ptr<HttpSession> by) {
+  std::lock_guard lock(mutex);
+  sessions.erase(session);
+  if (!stopping) sessions.insert(std::move(by));
+  return !stopping;
+}
+
 std::vector<std::shared_ptr<HttpSession>> HttpCore::all_sessions() {
   std::lock_guard lock(mutex);
   return {sessions.begin(), sessions.end()};
@@ -181,12 +189,12 @@ HttpServer::~HttpServer() { stop(milliseconds(0)); }
 
 Result<std::unique_ptr<HttpServer>> HttpServer::start(const std::string& address,
                                                       HttpHandler handler, const HttpLimits& limits,
-                                                      HttpDoor door) {
+                                                      HttpDoor door, StreamOpener streams) {
   auto parsed = parse_address(address);
   if (!parsed) return parsed.error();
   try {
-    std::unique_ptr<HttpServer> server(
-        new HttpServer(std::make_shared<HttpCore>(std::move(handler), limits, std::move(door))));
+    std::unique_ptr<HttpServer> server(new HttpServer(std::make_shared<HttpCore>(
+        std::move(handler), limits, std::move(door), std::move(streams))));
     HttpCore& core = *server->core_;
     if (auto listening = listen(core, *parsed); !listening) return listening.error();
     server->port_ = core.acceptor.local_endpoint().port();
@@ -200,6 +208,15 @@ Result<std::unique_ptr<HttpServer>> HttpServer::start(const std::string& address
 }
 
 const HttpCounters& HttpServer::counters() const { return core_->counters; }
+
+void HttpServer::wake_streams() {
+  HttpCore& core = *core_;
+  if (core.counters.streams == 0 || core.waking.exchange(true)) return;
+  net::post(core.io, [&core] {
+    core.waking = false;
+    for (const auto& session : core.all_sessions()) session->wake();
+  });
+}
 
 void HttpServer::stop(milliseconds drain) {
   if (threads_.empty()) return;
@@ -228,6 +245,7 @@ void HttpServer::stop(milliseconds drain) {
   for (auto& thread : threads_) thread.join();
   threads_.clear();
   core.handler = nullptr;
+  core.streams = nullptr;
 }
 
 }  // namespace anchord

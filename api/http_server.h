@@ -11,6 +11,7 @@
 
 #include "api/http_door.h"
 #include "api/http_message.h"
+#include "api/stream.h"
 #include "core/result.h"
 
 namespace anchord {
@@ -27,6 +28,8 @@ struct HttpLimits {
   std::chrono::milliseconds idle_time{60'000};     ///< between requests; longer: closed
   std::chrono::milliseconds write_time{10'000};    ///< to take an answer; longer: closed
   std::chrono::milliseconds linger_time{1'000};    ///< to read the answer before the close
+  std::size_t streams = 64;                        ///< WebSockets among the connections; more: 503
+  std::chrono::milliseconds stream_idle_time{30'000};  ///< without a sign of life: closed
   int threads = 2;
 };
 
@@ -43,7 +46,10 @@ struct HttpCounters {
   std::atomic<std::uint64_t> request_timeouts{0};  ///< answered with 408
   std::atomic<std::uint64_t> write_timeouts{0};    ///< clients that did not take their answer
   std::atomic<std::uint64_t> idle_closed{0};
-  std::atomic<std::uint64_t> failures{0};  ///< exceptions, and requests that nobody answered
+  std::atomic<std::uint64_t> streams{0};         ///< WebSockets that are open now
+  std::atomic<std::uint64_t> streamed{0};        ///< messages that went out on them
+  std::atomic<std::uint64_t> streamed_bytes{0};  ///< of these, without frames and headers
+  std::atomic<std::uint64_t> failures{0};        ///< exceptions, and requests that nobody answered
 };
 
 /// An HTTP/1.1 server with keep-alive and pipelining; a connection's requests are answered one
@@ -52,7 +58,8 @@ struct HttpCounters {
 /// or is not let in by the door, before it reads a body; all else, unknown methods and paths
 /// included, is the handler's. A new connection over their limit takes the place of the one that
 /// has been idle for longest; it gets 503 where none is idle. What is answered with 503 bears
-/// Retry-After. It knows no TLS.
+/// Retry-After. Who asks for a WebSocket becomes a stream's client, if the opener lets him. It
+/// knows no TLS.
 class HttpServer {
  public:
   /// Listens on `address`, "ADDR:PORT" (`127.0.0.1:7780`, `[::1]:7780`, `localhost:0`; port 0: any
@@ -61,7 +68,7 @@ class HttpServer {
   /// is in use, or the machine refuses.
   static Result<std::unique_ptr<HttpServer>> start(const std::string& address, HttpHandler handler,
                                                    const HttpLimits& limits = {},
-                                                   HttpDoor door = {});
+                                                   HttpDoor door = {}, StreamOpener streams = {});
   /// stop() without waiting.
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
@@ -69,6 +76,9 @@ class HttpServer {
 
   std::uint16_t port() const { return port_; }
   const HttpCounters& counters() const;
+
+  /// There may be something new to tell the streams' clients. Cheap, from any thread.
+  void wake_streams();
 
   /// Stops listening, closes idle connections, lets requests that have begun finish for at most
   /// `drain`, closes the rest and joins the threads; the handler is not called after that. Not to

@@ -11,6 +11,7 @@
 
 #include "api/http_checks.h"
 #include "api/http_core.h"
+#include "api/websocket_session.h"
 
 namespace anchord {
 
@@ -214,6 +215,7 @@ class Session : public HttpSession, public std::enable_shared_from_this<Session>
   }
 
   void handle();
+  void upgrade(const HttpTarget& target);
 
   /// Writes the answer; then comes the next request, or the end.
   void respond(HttpResponse response, bool keep_alive) {
@@ -318,6 +320,7 @@ void Session::handle() {
     return respond({204, "", "", {{"Allow", "GET, HEAD, POST, OPTIONS"}}}, may_keep_alive());
   auto target = parse_target({message.target().data(), message.target().size()});
   if (!target) return respond(http_error(target.error()), may_keep_alive());
+  if (core_.streams && wants_stream(message)) return upgrade(*target);
   const auto method =
       message.method() == http::verb::head ? beast::string_view("GET") : message.method_string();
   const auto content_type = message[http::field::content_type];
@@ -331,6 +334,25 @@ void Session::handle() {
     ++core_.counters.failures;
     pending->answer(http_error(500, "internal", "the request could not be handled"));
   }
+}
+
+/// The connection goes on as a WebSocket, or the request is refused as any other.
+void Session::upgrade(const HttpTarget& target) {
+  auto& message = parser_->get();
+  const auto refuse = [&](HttpResponse why) { respond(std::move(why), false); };
+  if (buffer_.size() > 0)
+    return refuse(http_error(400, "malformed", "a WebSocket's frames come after the handshake"));
+  if (core_.counters.streams >= core_.limits.streams)
+    return refuse(http_error(503, "too_many_streams",
+                             "there are as many streams as there may be; try again later"));
+  const auto field = message[http::field::sec_websocket_protocol];
+  auto opening = core_.streams(target, offered_protocols({field.data(), field.size()}));
+  if (!opening) return refuse(http_error(opening.error()));
+  ++core_.counters.responses[1];
+  state_ = State::kClosed;
+  const auto stream =
+      make_websocket_session(core_, std::move(socket_), parser_->release(), *std::move(opening));
+  core_.replace(shared_from_this(), stream) ? stream->start() : stream->stop(true);
 }
 
 }  // namespace

@@ -71,6 +71,19 @@ HttpResponse not_ready() {
                     "the daemon is restoring its belief from the log, or ending; try again");
 }
 
+/// The configuration that runs, as it was read: what is known of the world before it is seen.
+HttpResponse configuration_answer(const HttpTarget& target, const Snapshot& snapshot) {
+  if (!target.parameters.empty())
+    return http_error(invalid(target.parameters.front().first, "is no parameter of this question"));
+  return {200, "application/json", snapshot.background->knowledge.text + "\n", {}};
+}
+
+HttpResponse upgrade_required() {
+  HttpResponse refusal = http_error(426, "upgrade_required", "ask for a WebSocket here");
+  refusal.headers.emplace_back("Upgrade", "websocket");
+  return refusal;
+}
+
 /// Whether a body may be read as JSON; answers if not.
 bool refuse_unless_json(const HttpRequest& request, const HttpReply& reply, const char* what,
                         const HttpBackend& backend) {
@@ -125,6 +138,9 @@ void answer_get(HttpTarget target, const HttpBackend& backend, const HttpReply& 
   if (target.path == "/v1/status") return reply(backend.self.status());
   if (target.path == "/metrics") return reply(backend.self.metrics());
   if (target.path == "/v1/openapi.json") return reply({200, "application/json", kOpenApi, {}});
+  if (target.path == "/v1/configuration")
+    return reply(configuration_answer(target, backend.journal.snapshot()));
+  if (target.path == "/v1/stream") return reply(upgrade_required());
   if (!backend.ready) return reply(not_ready());
   if (is_verification(target.path))
     return reply(verification_answer(target, backend.verifications));

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "api/scene_streams.h"
+
 namespace anchord {
 namespace {
 
@@ -34,11 +36,13 @@ Result<std::unique_ptr<Service>> Service::open(Knowledge knowledge, const Servic
   if (!sender) return sender.error();
   auto receiver = LcmReceiver::open(options.lcm_receiver, (*sender)->url());
   if (!receiver) return receiver.error();
+  const std::string frame = knowledge.map_frame;
   std::unique_ptr<Service> service(new Service(std::move(knowledge), options, *std::move(log),
                                                *std::move(sender), *std::move(receiver),
                                                std::make_shared<StaticFiles>(*std::move(viewer))));
   auto http = HttpServer::start(options.http_address, http_routes(service->backend()), {},
-                                front_door(std::move(token), service->viewer_));
+                                front_door(std::move(token), service->viewer_),
+                                scene_streams(*service->scenes_, frame, service->ready_));
   if (!http) return http.error();
   service->http_ = std::move(*http);
   service->listening_ = service->http_.get();
@@ -54,6 +58,7 @@ Service::Service(Knowledge knowledge, const ServiceOptions& options, std::unique
   Journal::Hooks hooks;
   hooks.applied = [this, background = world.background()](std::shared_ptr<const Belief> belief) {
     lcm_->publish_world(std::move(belief), background);
+    show();
   };
   hooks.refused = [this](const Submission& submission, const Frame* frame, const Error& why) {
     if (submission.origin != kHttpOrigin) ++statistics_.refused_lcm;
@@ -71,8 +76,14 @@ Service::Service(Knowledge knowledge, const ServiceOptions& options, std::unique
   journal_ = std::make_unique<Journal>(std::move(world), std::move(log), statistics_, times_,
                                        std::move(hooks), std::move(checkpointer));
   archive_ = std::make_unique<Archive>(*journal_, options.data_directory, empty);
-  verifications_ = std::make_unique<Verifications>(
-      *journal_, robots_, [this](const Task& task, Utime now) { lcm_->publish_task(task, now); });
+  verifications_ =
+      std::make_unique<Verifications>(*journal_, robots_, [this](const Task& task, Utime now) {
+        lcm_->publish_task(task, now);
+        show();
+      });
+  scenes_ = std::make_unique<SceneSource>([this] {
+    return std::pair(journal_->snapshot(), SceneParts{verifications_->open_tasks(), robots_.all()});
+  });
 }
 
 Service::~Service() { stop(); }
@@ -106,11 +117,17 @@ void Service::stop() {
   lcm_->stop();
   if (http_) http_->stop(kDrain);
   listening_ = nullptr;
-  http_.reset();
   verifications_->stop();
   archive_->stop();
   journal_.reset();  // applies and commits what waits
   lcm_.reset();      // after it has published what came of that
+  http_.reset();     // which show() still wakes until then
+}
+
+void Service::show() {
+  if (!scenes_) return;
+  scenes_->changed();
+  if (HttpServer* http = listening_) http->wake_streams();
 }
 
 HttpBackend Service::backend() {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "api/scene_source.h"
 #include "core/result.h"
 #include "daemon/archive.h"
 #include "daemon/http_front.h"
@@ -50,6 +51,8 @@ class Service {
           std::unique_ptr<LcmSender> sender, std::unique_ptr<LcmReceiver> receiver,
           std::shared_ptr<const StaticFiles> viewer);
   HttpBackend backend();
+  /// The belief or a task has changed: those who watch are told.
+  void show();
   StatusSources sources() const;
 
   ServiceOptions options_;
@@ -63,6 +66,7 @@ class Service {
   std::unique_ptr<Journal> journal_;
   std::unique_ptr<Archive> archive_;
   std::unique_ptr<Verifications> verifications_;
+  std::unique_ptr<SceneSource> scenes_;
   std::unique_ptr<HttpServer> http_;
   std::atomic<HttpServer*> listening_{nullptr};  ///< http_, for those whom it serves
 };

@@ -291,6 +291,11 @@ std::vector<Task> Verifications::tasks() const {
   return coordinator_.tasks();
 }
 
+std::vector<Task> Verifications::open_tasks() const {
+  std::lock_guard lock(mutex_);
+  return coordinator_.open_tasks();
+}
+
 std::optional<Task> Verifications::find(std::int64_t id) const {
   std::lock_guard lock(mutex_);
   const Task* task = coordinator_.find(id);
@@ -299,7 +304,7 @@ std::optional<Task> Verifications::find(std::int64_t id) const {
 
 std::pair<std::size_t, std::size_t> Verifications::open() const {
   std::size_t queued = 0, issued = 0;
-  for (const Task& task : tasks()) {
+  for (const Task& task : open_tasks()) {
     queued += task.state == Task::State::kQueued;
     issued += task.state == Task::State::kIssued;
   }

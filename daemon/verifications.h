@@ -53,6 +53,8 @@ class Verifications {
   Status pose(const RobotPose& pose);
 
   std::vector<Task> tasks() const;
+  /// Those that have not ended.
+  std::vector<Task> open_tasks() const;
   std::optional<Task> find(std::int64_t id) const;
   /// Tasks that wait, and those that are issued.
   std::pair<std::size_t, std::size_t> open() const;

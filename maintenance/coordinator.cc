@@ -208,10 +208,16 @@ const Task* Coordinator::find(std::int64_t id) const {
 }
 
 std::vector<Task> Coordinator::tasks() const {
-  std::vector<Task> all(ended_.begin(), ended_.end());
-  for (const auto& [id, task] : active_) all.push_back(task);
+  std::vector<Task> all = open_tasks();
+  all.insert(all.end(), ended_.begin(), ended_.end());
   std::sort(all.begin(), all.end(), [](const Task& a, const Task& b) { return a.id < b.id; });
   return all;
+}
+
+std::vector<Task> Coordinator::open_tasks() const {
+  std::vector<Task> open;
+  for (const auto& [id, task] : active_) open.push_back(task);
+  return open;
 }
 
 }  // namespace anchord

@@ -75,6 +75,8 @@ class Coordinator {
   /// All that are kept, in order of id: those that wait or are issued, and the last kMaxEnded
   /// ended.
   std::vector<Task> tasks() const;
+  /// Those that have not ended, in order.
+  std::vector<Task> open_tasks() const;
   std::int64_t last_id() const { return last_id_; }
 
   static constexpr std::size_t kMaxActive = 256;

@@ -144,10 +144,11 @@ TEST_F(Door, PagesAreNotInTheWayOfTheApi) {
 }
 
 TEST_F(Door, NoPagesIfThereIsNoViewer) {
-  DaemonProcess daemon(folder_);
+  auto call = arguments("127.0.0.1:0", {});
+  call.back() = "";
+  DaemonProcess daemon(folder_, {}, call);
   ASSERT_TRUE(daemon.ready());
   EXPECT_EQ(ask(daemon.port(), get("/")).status, 404);
-  auto call = arguments("127.0.0.1:0", {});
   call.back() = folder_ / "nowhere";
   refuses(call, {folder_ / "nowhere"});
 }

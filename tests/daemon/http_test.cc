@@ -65,6 +65,10 @@ TEST_F(HttpTest, TellsOfItself) {
   EXPECT_NE(metrics.body.find("\nanchord_frames_accepted_total 1\n"), std::string::npos);
   EXPECT_NE(metrics.body.find("\nanchord_ready 1\n"), std::string::npos);
 
+  const auto configuration = Json::parse(body(port(), "/v1/configuration"));
+  EXPECT_EQ(configuration, Json::parse(kScene));
+  EXPECT_EQ(ask(port(), get("/v1/configuration?at=now")).status, 400);
+
   const auto api = Json::parse(body(port(), "/v1/openapi.json"));
   for (const char* path : {"/v1/detections", "/v1/objects", "/v1/objects/{id}", "/v1/where",
                            "/v1/count", "/v1/hypotheses", "/v1/status", "/metrics"})
