@@ -24,6 +24,7 @@ install(FILES ${CMAKE_BINARY_DIR}/anchordConfig.cmake ${CMAKE_BINARY_DIR}/anchor
         DESTINATION ${ANCHORD_PACKAGE})
 
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/config DESTINATION share/anchord)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/build/viewer DESTINATION share/anchord OPTIONAL)  # once bundled
 install(FILES daemon/openapi.json DESTINATION share/anchord)
 file(GLOB ANCHORD_PAGES ${CMAKE_SOURCE_DIR}/docs/man/*.[18])
 if(NOT ANCHORD_PERCEPTION)

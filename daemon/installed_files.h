@@ -14,7 +14,7 @@ struct InstalledFiles {
 /// installed: the viewer is there, and the configuration; of the prefix /usr, which a package is
 /// installed in, the configuration is `etc`/anchord/home.json if that exists, which is the
 /// machine's to change. Elsewhere, as in a build folder, they are config/home.json, from where it
-/// is started, and none.
+/// is started, and the folder `viewer` beside it.
 InstalledFiles installed_files(const std::string& program, const std::string& usr,
                                const std::string& etc);
 

@@ -26,6 +26,7 @@ around_build=()
 
 command_build() {
   need "${PACKAGES_BUILD[@]}"
+  build_viewer
   configure_and_build release build
   say "the programs are in build/:"
   programs | sed 's/^/    /'
@@ -33,6 +34,7 @@ command_build() {
 
 command_package() {
   need "${PACKAGES_BUILD[@]}" "${PACKAGES_PACKAGE[@]}"
+  build_viewer
   configure_and_build package build-package
   say "packing build-package"
   rm -f build-package/*.deb

@@ -38,7 +38,7 @@ check_scripts() {
 }
 
 check_sizes() {
-  project_files '*.cc' '*.h' '*.py' '*.sh' '*.cmake' '*.js' '*.css' '*.html' dev |
+  project_files '*.cc' '*.h' '*.py' '*.sh' '*.cmake' '*.ts' '*.mjs' '*.css' '*.html' dev |
     xargs wc -l | awk -v most="$LONGEST_FILE" '
       $2 != "total" && $1 > most {print $2 ": " $1 " lines, more than " most; bad = 1}
       END {exit bad}'

@@ -18,6 +18,8 @@ PACKAGES_BUILD=(
   libgtest-dev librapidcheck-dev libbenchmark-dev  # one configuration builds tests, benchmarks too
 )
 PACKAGES_TEST=(python3 iproute2)
+PACKAGES_VIEWER=(nodejs npm)      # bundles the page
+PACKAGES_BROWSER=(chromium)       # looks at it
 PACKAGES_RUN=(iproute2)
 PACKAGES_PACKAGE=(dpkg-dev file gzip)  # dpkg-deb, dpkg-shlibdeps
 PACKAGES_FORMAT=(clang-format-14)

@@ -16,6 +16,7 @@ command_run() {
     *) fail "run takes --keep or --once, not $1" 2 ;;
   esac
   need "${PACKAGES_BUILD[@]}" "${PACKAGES_RUN[@]}"
+  build_viewer
   configure_and_build release build anchord anchorctl anchor-play
 
   local port=7780
@@ -37,7 +38,7 @@ command_run() {
     return
   fi
   say "the daemon goes on serving:"
-  echo "    look:  http://127.0.0.1:$port/v1/objects   http://127.0.0.1:$port/v1/status"
+  echo "    look:  http://127.0.0.1:$port/ in a browser"
   echo "    ask:   build/anchorctl --server 127.0.0.1:$port where --class person"
   echo "    feed:  LCM channel ANCHORD_DETECTIONS at $url"
   echo "    stop:  Ctrl-C"

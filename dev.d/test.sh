@@ -3,6 +3,8 @@
 
 command_test() {
   need "${PACKAGES_BUILD[@]}" "${PACKAGES_TEST[@]}"
+  if ! command -v chromium >/dev/null; then need "${PACKAGES_BROWSER[@]}"; fi
+  build_viewer
   configure_and_build release build
   run_tests test build ${1:+--tests-regex "$1"}
 }

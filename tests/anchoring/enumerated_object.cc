@@ -130,11 +130,9 @@ double Laws::predict(Object& object, double dt) const {
   for (std::size_t i = 0; i < m.size(); ++i) {
     if (m[i].tracked() && object.models[i].weight > 0)
       move(object.models[i].state, m[i], cells_.dims, dt);
-    if (!m[i].tracked()) {
-      const double stays = std::exp(-m[i].stir * dt);
-      object.models[i].cells =
-          (stays * object.models[i].cells + (1 - stays) * extent_of(m[i]).uniform).eval();
-    }
+    if (m[i].tracked()) continue;
+    Eigen::VectorXd& cells = object.models[i].cells;
+    cells += (1 - std::exp(-m[i].stir * dt)) * (extent_of(m[i]).uniform - cells);
   }
   const Eigen::MatrixXd chain = exponential(rates(knowledge_.classes[object.object_class]) * dt);
   const std::vector<Density> moved = object.models;

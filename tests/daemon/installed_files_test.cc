@@ -24,6 +24,8 @@ class Installed : public ::testing::Test {
 TEST_F(Installed, NothingBesideABuildFolder) {
   EXPECT_EQ(look("build").configuration, "config/home.json");
   EXPECT_EQ(look("build").viewer, "");
+  std::filesystem::create_directories(folder_ / "build/bin/viewer");
+  EXPECT_EQ(look("build").viewer, folder_ / "build/bin/viewer");
   install("usr");
   const auto elsewhere = installed_files(folder_ / "usr/sbin/anchord", folder_ / "usr", "");
   EXPECT_EQ(elsewhere.configuration, "config/home.json");
