@@ -25,7 +25,7 @@ online() { inside 0 "$@"; }
 offline() { inside 1 --net "$@"; }
 # Everything but what apt and dpkg keep about packages, and what programs make as they run.
 files() {
-  (cd "$root" && find . -xdev \( -path ./proc -o -path ./sys -o -path ./dev -o -path ./tmp \
+  (cd "$root" && find . -xdev \( -path ./proc -o -path ./sys -o -path ./dev -o -path ./tmp -o -path ./run \
     -o -path ./var/lib/dpkg -o -path ./var/lib/apt -o -path ./var/cache -o -path ./var/log \
     -o -path ./var/lib/systemd -o -path ./anchord.deb \) -prune -o -print | sort)
 }
@@ -49,11 +49,14 @@ offline bash -euc '
   ip link set lo up
   ip link set lo multicast on
   ip route add 224.0.0.0/4 dev lo
-  cd /
+  cd "$(mktemp -d)"
   log=$(mktemp)
   anchord --data /var/lib/anchord 2>"$log" &
   until grep -q "ready: " "$log"; do kill -0 $! || { cat "$log"; exit 1; }; sleep 0.1; done
   anchorctl status
+  exec 3<>/dev/tcp/127.0.0.1/7780
+  printf "GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n" >&3
+  grep "<title>anchord" <&3
   kill $! && wait $!
   anchord --http 0.0.0.0:7780 && exit 1
   [[ $? == 2 ]]'
