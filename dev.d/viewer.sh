@@ -3,21 +3,25 @@
 
 readonly VIEWER=build/viewer
 
-# need_node: node and npm, Debian's unless there are others.
-need_node() {
-  if command -v node >/dev/null && command -v npm >/dev/null; then return; fi
-  need "${PACKAGES_VIEWER[@]}"
+# has COMMAND PACKAGE...: the command, Debian's unless there is another; false if it cannot be had.
+has() {
+  command -v "$1" >/dev/null || (need "${@:2}")
 }
 
-# build_viewer: into $VIEWER, from what the lockfile names.
+# build_viewer: into $VIEWER, from what the lockfile names. Where that cannot be downloaded the daemon
+# is built, and serves, without the page.
 build_viewer() {
-  need_node
+  has npm "${PACKAGES_VIEWER[@]}" || {
+    say "without node and npm the page is left out"
+    return 0
+  }
   local modules=viewer/node_modules log=$CACHE/viewer.log
   if ! cmp -s viewer/package-lock.json "$modules/.of-lockfile"; then
     say "downloading what viewer/package-lock.json names"
     npm --prefix viewer ci --no-audit --no-fund --loglevel=error >"$log" 2>&1 || {
       tail -n 20 "$log" >&2
-      fail "npm could not install what viewer/package-lock.json names"
+      say "npm could not download what viewer/package-lock.json names: the page is left out"
+      return 0
     }
     cp viewer/package-lock.json "$modules/.of-lockfile"
   fi
