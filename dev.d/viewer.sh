@@ -18,7 +18,8 @@ build_viewer() {
   local modules=viewer/node_modules log=$CACHE/viewer.log
   if ! cmp -s viewer/package-lock.json "$modules/.of-lockfile"; then
     say "downloading what viewer/package-lock.json names"
-    npm --prefix viewer ci --no-audit --no-fund --loglevel=error >"$log" 2>&1 || {
+    npm --prefix viewer ci --no-audit --no-fund --loglevel=error --fetch-retries=1 \
+      --fetch-retry-mintimeout=2000 >"$log" 2>&1 || {
       tail -n 20 "$log" >&2
       say "npm could not download what viewer/package-lock.json names: the page is left out"
       return 0

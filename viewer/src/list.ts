@@ -1,6 +1,6 @@
 import { shade } from './colors';
 import type { Scene } from './scene';
-import { element } from './timeline';
+import { element } from './element';
 
 /** The side panel's lists, by which everything can be reached with a keyboard. */
 export class Lists {

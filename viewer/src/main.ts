@@ -1,6 +1,7 @@
 import { Vector3 } from 'three';
 import { ask, type Configuration } from './api';
 import { Details } from './details';
+import { element } from './element';
 import { Home } from './home';
 import { Lists } from './list';
 import { Objects } from './objects';
@@ -11,7 +12,7 @@ import type { Scene } from './scene';
 import { Stage } from './stage';
 import { StatusLine } from './status';
 import { Stream } from './stream';
-import { element, Timeline } from './timeline';
+import { Timeline } from './timeline';
 import { Explanations } from './worlds';
 
 const REFRESH = 500; // ms

@@ -1,7 +1,7 @@
 import { ask } from './api';
 import type { Stage } from './stage';
 import type { Stream } from './stream';
-import { element } from './timeline';
+import { element } from './element';
 
 interface Status {
   frames: { accepted: number; refused: number; lost: number; overrun: number };

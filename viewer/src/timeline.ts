@@ -1,3 +1,5 @@
+import { element } from './element';
+
 const STEPS = 1000; // of the slider
 const TICK = 250; // ms between two pictures of what is played
 const SPEED = 4; // times as fast as it was
@@ -68,8 +70,4 @@ export class Timeline {
     this.shown.textContent = this.at === undefined ? `live, ${text}` : text;
     document.body.dataset.time = this.at === undefined ? 'live' : 'past';
   }
-}
-
-export function element<E extends HTMLElement>(id: string): E {
-  return document.getElementById(id) as E;
 }

@@ -1,6 +1,6 @@
 import { ask } from './api';
 import type { Overlay } from './overlay';
-import { element } from './timeline';
+import { element } from './element';
 
 interface Worlds {
   worlds: {
