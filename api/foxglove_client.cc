@@ -19,9 +19,10 @@ constexpr std::size_t kMostLines = 64;  // of one change; whoever is slow is tol
 
 class FoxgloveClient : public StreamClient {
  public:
-  FoxgloveClient(SceneSource& scenes, std::string frame, std::chrono::milliseconds pause)
+  FoxgloveClient(SceneSource& scenes, const std::string& session, std::string frame,
+                 std::chrono::milliseconds pause)
       : scenes_(scenes), frame_(std::move(frame)), pause_(pause) {
-    tell(foxglove::server_info(std::to_string(scenes.current()->number)));
+    tell(foxglove::server_info(session));
     tell(foxglove::advertise({{foxglove::kScene, "/anchord/scene", "foxglove.SceneUpdate"},
                               {foxglove::kLog, "/anchord/log", "foxglove.Log"}}));
   }
@@ -138,9 +139,10 @@ class FoxgloveClient : public StreamClient {
 
 }  // namespace
 
-std::unique_ptr<StreamClient> make_foxglove_client(SceneSource& scenes, std::string frame,
+std::unique_ptr<StreamClient> make_foxglove_client(SceneSource& scenes, const std::string& session,
+                                                   std::string frame,
                                                    std::chrono::milliseconds pause) {
-  return std::make_unique<FoxgloveClient>(scenes, std::move(frame), pause);
+  return std::make_unique<FoxgloveClient>(scenes, session, std::move(frame), pause);
 }
 
 }  // namespace anchord

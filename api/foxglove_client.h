@@ -16,7 +16,10 @@ inline constexpr std::array<const char*, 2> kFoxgloveProtocols{"foxglove.sdk.v1"
 
 /// One who watches with Foxglove's tools: `/anchord/scene` (foxglove.SceneUpdate), `/anchord/log`
 /// (foxglove.Log), and `/anchord/robots/NAME` (foxglove.PoseInFrame), in JSON; see docs/stream.md.
-std::unique_ptr<StreamClient> make_foxglove_client(SceneSource& scenes, std::string frame,
+/// `session` is another one after each start of the daemon: by that they forget what was before.
+/// `frame`: the map's. `pause`: between what is made of two looks at the scene.
+std::unique_ptr<StreamClient> make_foxglove_client(SceneSource& scenes, const std::string& session,
+                                                   std::string frame,
                                                    std::chrono::milliseconds pause);
 
 }  // namespace anchord

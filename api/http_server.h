@@ -46,10 +46,11 @@ struct HttpCounters {
   std::atomic<std::uint64_t> request_timeouts{0};  ///< answered with 408
   std::atomic<std::uint64_t> write_timeouts{0};    ///< clients that did not take their answer
   std::atomic<std::uint64_t> idle_closed{0};
-  std::atomic<std::uint64_t> streams{0};         ///< WebSockets that are open now
-  std::atomic<std::uint64_t> streamed{0};        ///< messages that went out on them
-  std::atomic<std::uint64_t> streamed_bytes{0};  ///< of these, without frames and headers
-  std::atomic<std::uint64_t> failures{0};        ///< exceptions, and requests that nobody answered
+  std::atomic<std::uint64_t> streams{0};          ///< WebSockets that are open now
+  std::atomic<std::uint64_t> streams_refused{0};  ///< ended for what their clients said
+  std::atomic<std::uint64_t> streamed{0};         ///< messages that went out on them
+  std::atomic<std::uint64_t> streamed_bytes{0};   ///< of these, without frames and headers
+  std::atomic<std::uint64_t> failures{0};         ///< exceptions, and requests that nobody answered
 };
 
 /// An HTTP/1.1 server with keep-alive and pipelining; a connection's requests are answered one

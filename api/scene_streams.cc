@@ -74,7 +74,8 @@ class Watcher : public StreamClient {
 }  // namespace
 
 StreamOpener scene_streams(SceneSource& scenes, std::string frame, const std::atomic<bool>& ready) {
-  return [&scenes, frame = std::move(frame), &ready](
+  const auto began = std::chrono::system_clock::now().time_since_epoch().count();
+  return [&scenes, session = std::to_string(began), frame = std::move(frame), &ready](
              const HttpTarget& target,
              const std::vector<std::string>& protocols) -> Result<StreamOpening> {
     const auto foxglove = std::find_first_of(protocols.begin(), protocols.end(),
@@ -87,7 +88,8 @@ StreamOpener scene_streams(SceneSource& scenes, std::string frame, const std::at
                    "the daemon is restoring its belief from the log, or ending; try again"};
     const auto pause = read_pause(target);
     if (!pause) return pause.error();
-    if (of_foxglove) return StreamOpening{make_foxglove_client(scenes, frame, *pause), *foxglove};
+    if (of_foxglove)
+      return StreamOpening{make_foxglove_client(scenes, session, frame, *pause), *foxglove};
     const bool named =
         std::find(protocols.begin(), protocols.end(), kStreamProtocol) != protocols.end();
     return StreamOpening{std::make_unique<Watcher>(scenes, *pause), named ? kStreamProtocol : ""};

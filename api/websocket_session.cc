@@ -116,6 +116,7 @@ class WebSocketSession : public HttpSession, public std::enable_shared_from_this
                   : Status(invalid("", "messages are text"));
           heard_.consume(heard_.size());
           if (!heard && !ending_) {
+            ++core_.counters.streams_refused;
             std::string why = heard.error().text();
             why.resize(std::min<std::size_t>(why.size(), 120));  // of at most 123
             say_goodbye({websocket::close_code::policy_error, why});

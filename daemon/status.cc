@@ -115,6 +115,7 @@ HttpResponse status_answer(const StatusSources& from) {
     out["http"]["foreign"] = http.foreign.load();
     out["http"]["client_errors"] = http.responses[4].load();
     out["http"]["streams"] = http.streams.load();
+    out["http"]["streams_refused"] = http.streams_refused.load();
     out["http"]["streamed"] = http.streamed.load();
     out["http"]["streamed_bytes"] = http.streamed_bytes.load();
     out["http"]["timeouts"] = http.request_timeouts.load() + http.write_timeouts.load();
@@ -195,6 +196,8 @@ HttpResponse metrics_answer(const StatusSources& from) {
     out.add("http_client_errors_total", "counter", "answers with status 4xx",
             http.responses[4].load());
     out.add("http_streams", "gauge", "open streams", http.streams.load());
+    out.add("http_streams_refused_total", "counter", "streams ended for what their clients said",
+            http.streams_refused.load());
     out.add("http_streamed_total", "counter", "messages of streams", http.streamed.load());
     out.add("http_streamed_bytes_total", "counter", "of these", http.streamed_bytes.load());
     out.add("http_timeouts_total", "counter", "clients that were too slow",
